@@ -1,0 +1,103 @@
+// The closed list of errors that a peer can receive: a JSON-RPC code, a stable name, and the client's exit code.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace headrace::proto {
+
+enum class ErrorCode {
+    parse_error,
+    invalid_request,
+    method_not_found,
+    invalid_params,
+    internal_error,
+    json_too_deep,
+    duplicate_key,
+    message_too_large,
+    wrong_state,
+    wrong_socket,
+    busy,
+    scene_not_found,
+    scene_invalid,
+    object_not_found,
+    object_exists,
+    parameter_not_found,
+    job_not_found,
+    stream_not_found,
+    recording_not_found,
+    limit_exceeded,
+    file_error,
+    cancelled,
+    timed_out,
+    faulted,
+    shutting_down,
+    connection_failed,  // client side only: no server answers
+    protocol_mismatch,  // client side only: the server speaks another protocol number
+    usage,              // client side only: the command line is off
+};
+
+struct ErrorInfo {
+    ErrorCode code;
+    int rpc_code;           // JSON-RPC 2.0 `error.code`
+    std::string_view name;  // `error.data.name`, stable
+    int exit_code;          // exit status of the `headrace` client
+    bool retryable;         // the same request may succeed later unchanged
+};
+
+// -32700 .. -32600 are JSON-RPC 2.0's own (section 5.1); -32001 .. -32099 are its range for servers.
+// Exit codes: 2 usage or bad request, 3 connection, 4 not found, 5 wrong state, 6 files, 7 faulted, 8 timed out, 1
+// rest.
+inline constexpr std::array<ErrorInfo, 28> kErrors{{
+    {ErrorCode::parse_error, -32700, "parse_error", 2, false},
+    {ErrorCode::invalid_request, -32600, "invalid_request", 2, false},
+    {ErrorCode::method_not_found, -32601, "method_not_found", 2, false},
+    {ErrorCode::invalid_params, -32602, "invalid_params", 2, false},
+    {ErrorCode::internal_error, -32603, "internal_error", 1, false},
+    {ErrorCode::json_too_deep, -32001, "json_too_deep", 2, false},
+    {ErrorCode::duplicate_key, -32002, "duplicate_key", 2, false},
+    {ErrorCode::message_too_large, -32003, "message_too_large", 2, false},
+    {ErrorCode::wrong_state, -32010, "wrong_state", 5, false},
+    {ErrorCode::wrong_socket, -32011, "wrong_socket", 2, false},
+    {ErrorCode::busy, -32012, "busy", 5, true},
+    {ErrorCode::scene_not_found, -32020, "scene_not_found", 4, false},
+    {ErrorCode::scene_invalid, -32021, "scene_invalid", 2, false},
+    {ErrorCode::object_not_found, -32022, "object_not_found", 4, false},
+    {ErrorCode::object_exists, -32023, "object_exists", 5, false},
+    {ErrorCode::parameter_not_found, -32024, "parameter_not_found", 4, false},
+    {ErrorCode::job_not_found, -32025, "job_not_found", 4, false},
+    {ErrorCode::stream_not_found, -32026, "stream_not_found", 4, false},
+    {ErrorCode::recording_not_found, -32027, "recording_not_found", 4, false},
+    {ErrorCode::limit_exceeded, -32030, "limit_exceeded", 5, false},
+    {ErrorCode::file_error, -32031, "file_error", 6, false},
+    {ErrorCode::cancelled, -32032, "cancelled", 5, true},
+    {ErrorCode::timed_out, -32033, "timed_out", 8, true},
+    {ErrorCode::faulted, -32034, "faulted", 7, false},
+    {ErrorCode::shutting_down, -32035, "shutting_down", 3, false},
+    {ErrorCode::connection_failed, -32090, "connection_failed", 3, true},
+    {ErrorCode::protocol_mismatch, -32091, "protocol_mismatch", 3, false},
+    {ErrorCode::usage, -32092, "usage", 2, false},
+}};
+
+constexpr const ErrorInfo& error_info(ErrorCode code) {
+    return kErrors[static_cast<std::size_t>(code)];
+}
+
+static_assert([] {
+    for (std::size_t k = 0; k < kErrors.size(); ++k)
+        if (kErrors[k].code != static_cast<ErrorCode>(k)) return false;
+    return true;
+}());
+
+// An expected failure, as data.
+struct Error {
+    ErrorCode code{ErrorCode::internal_error};
+    std::string message;  // for a person, one sentence
+    std::string path;     // where: JSON path such as `params.name`, or a file name; may be empty
+    std::string hint;     // the remedy; may be empty
+
+    std::string_view name() const { return error_info(code).name; }
+};
+
+}  // namespace headrace::proto

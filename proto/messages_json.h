@@ -1,0 +1,46 @@
+// Struct <-> JSON text, for every message and the scene document. Strict: unknown members, wrong types, duplicate keys,
+// nesting past 32, non-finite numbers and values out of range are refused with the JSON path, the unit and a hint.
+// Only the .cpp files of messages_json and the command tables include the JSON library's full header.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "proto/messages.h"
+#include "proto/result.h"
+
+namespace headrace::proto {
+
+using Json = nlohmann::ordered_json;
+
+inline constexpr int kMaxJsonDepth = 32;
+
+// Parses one JSON text under the limits above. Errors: parse_error (with line and column), json_too_deep,
+// duplicate_key.
+Result<Json> parse_json(std::string_view text);
+
+// Decodes a message's params (or a result) from JSON. `path` is the name of the root in error paths, e.g. "params".
+// Defined for every request and reply struct of messages.h, for SceneDesc and for ObjectDesc.
+template <class Message>
+Result<Message> from_json(const Json& json, std::string_view path);
+
+template <class Message>
+Json to_json(const Message& message);
+
+// JSON schema (2020-12) of a message: types, units, ranges, defaults, meanings. Same source as the decoder.
+template <class Message>
+Json json_schema();
+
+// Text in, text out, for those who do not want the JSON library.
+Result<SceneDesc> parse_scene(std::string_view text);
+std::string scene_text(const SceneDesc& scene);  // indented
+std::string event_text(const Event& event);      // one line
+Result<Event> parse_event(std::string_view text);
+std::string objects_text(const std::vector<ObjectDesc>& objects);  // one line
+Result<std::vector<ObjectDesc>> parse_objects(std::string_view text);
+
+Json error_json(const Error& error);  // JSON-RPC error object: code, message, data {name, path, hint, retryable}
+Error error_from_json(const Json& json);
+
+}  // namespace headrace::proto

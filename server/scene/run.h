@@ -1,0 +1,73 @@
+// A built scene: particles, objects, model and clock, without any thread. What the simulation thread steps, and what
+// tests and benchmarks use directly.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "proto/result.h"
+#include "proto/scene_desc.h"
+#include "server/solver/diagnostics.h"
+#include "server/solver/model.h"
+
+namespace headrace::scene {
+
+// Progress of a build, and the wish to end it; shared between the builder and whoever waits.
+struct BuildControl {
+    std::atomic<double> progress{0.0};  // 0..1
+    std::atomic<bool> cancelled{false};
+};
+
+class Run {
+  public:
+    // Validates the scene's meaning (values, overlaps with the model's table, counts) and builds it: samples the
+    // fluids, makes the model, computes the first densities and forces. Errors: scene_invalid, parameter_not_found with
+    // the JSON path below "scene"; cancelled.
+    static proto::Result<std::unique_ptr<Run>> build(const proto::SceneDesc& scene, BuildControl* control = nullptr);
+
+    // One step of the model. Precondition: no fault so far.
+    const solver::StepReport& step();
+
+    const proto::SceneDesc& scene() const { return scene_; }
+    const solver::Particles& particles() const { return particles_; }
+    const solver::Model& model() const { return *model_; }
+    const solver::StepReport& last_report() const { return report_; }
+    std::uint64_t step_number() const { return step_number_; }
+    double time() const { return time_; }                  // [s]
+    double fluid_height() const { return fluid_height_; }  // [m] extent of the fluid along gravity at load
+
+    std::vector<solver::Stage> plan() const;
+    solver::Diagnostics diagnostics() const;
+
+    // Mutations between steps. Errors carry the path below "params".
+    proto::Status set_parameters(const proto::Parameters& values, proto::Parameters* previous = nullptr);
+    std::vector<proto::ObjectDesc> objects() const;
+    proto::Status add_object(const proto::ObjectDesc& object);
+    proto::Status move_object(const std::string& name, const std::optional<proto::Vec3>& to,
+                              const std::optional<proto::Vec3>& by);
+    proto::Status remove_object(const std::string& name);
+
+  private:
+    Run() = default;
+    solver::Surroundings surroundings() const { return {objects_, domain_}; }
+    proto::Result<std::size_t> find_object(const std::string& name) const;
+
+    proto::SceneDesc scene_;
+    solver::Particles particles_;
+    std::vector<solver::CollisionObject> objects_;
+    solver::Domain domain_;
+    std::unique_ptr<solver::Model> model_;
+    solver::StepReport report_;
+    std::uint64_t step_number_{0};
+    double time_{0.0};
+    double fluid_height_{0.0};
+};
+
+// How many particles the fluids of a scene give, without making them.
+std::int64_t count_particles(const proto::SceneDesc& scene);
+
+}  // namespace headrace::scene
