@@ -1,8 +1,10 @@
-// The JSON-RPC 2.0 envelope, for server and client alike: one object per message, no batches.
+// The JSON-RPC 2.0 envelope, for server and client alike: one object per message, no batches. Includes the JSON library:
+// for .cpp files that handle requests only.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <variant>
