@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "proto/fields.h"
@@ -35,7 +36,6 @@ struct Demand {
     double interval{};            // [s] simulated, Trigger::interval; [s] wall, Trigger::rate
     WhenFull when_full{WhenFull::hold};
     std::int64_t credits{1};
-    bool wants_first{true};  // a frame of the present state at once
 };
 
 // A copy of the chosen fields at one step, rows ascending by particle id, in the dtype that travels.
@@ -43,9 +43,11 @@ struct Column {
     proto::Field field{};
     std::string_view dtype;
     int components{1};
-    std::vector<std::byte> bytes;
+    std::size_t size{};                  // [bytes]
+    std::unique_ptr<std::byte[]> bytes;  // not zeroed first: every byte is written
 };
 struct Capture {
+    std::uint64_t generation{};  // changes when another scene is loaded or the scene is reset
     std::uint64_t step{};
     double time{};        // [s]
     double wall_clock{};  // [s] since 1970-01-01 UTC
@@ -70,43 +72,54 @@ class FrameHub {
     using Copy = std::function<std::shared_ptr<const Capture>(proto::FieldSet, proto::Precision)>;
 
     // ---- publisher's side ----
-    DemandId add(Demand demand);  // id is given; takes effect at the next step boundary
+    DemandId add(Demand demand, bool active = true);  // id is given; takes effect at the next step boundary
     void remove(DemandId id);
     void release(DemandId id, std::int64_t captures = 1);
     void set_active(DemandId id, bool active);  // live streams: is anybody subscribed?
     void request_frame(DemandId id);            // one more frame of the present state, as soon as possible
     std::vector<CaptureFor> take();
-    bool is_full(DemandId id) const;
+    void set_credits(DemandId id, std::int64_t credits);
     std::vector<DemandId> take_failed();  // demands with WhenFull::fail that found no credit; they are removed
+    // Since when has this demand held the simulation up? Nothing: it does not.
+    std::optional<std::chrono::steady_clock::time_point> holding_since(DemandId id) const;
     server::Doorbell& doorbell() { return doorbell_; }  // rings when there is something to take
     void set_waker(std::function<void()> wake_simulation);
 
     // ---- simulation's side ----
-    bool may_step() const;  // false: a demand with WhenFull::hold has no credit
+    bool may_step();  // false: a demand with WhenFull::hold has no credit
     // Copies what is due now. `copy` is called once per precision in use at most, and not at all when nothing is due.
     void capture_due(const Moment& now, const Copy& copy);
-    bool has_requests() const;               // somebody waits for a frame of the present state
-    void restart_clocks(const Moment& now);  // after a load: intervals count from here
+    // After a load or reset: another generation begins, intervals count from here, everybody gets the new state.
+    void restart();
+    std::uint64_t generation() const;
 
   private:
     struct Entry {
         Demand demand;
         std::int64_t outstanding{0};
         bool active{true};
-        bool wants_now{true};
-        std::optional<Moment> origin;  // of the first capture
-        std::int64_t next{0};          // how many triggers have passed since
-        std::chrono::steady_clock::time_point last_wall{};
+        bool wants_now{true};          // a frame of the present state, whatever the trigger
+        std::optional<Moment> origin;  // where the trigger's count began
+        std::int64_t triggers{0};      // counted since
+        std::uint64_t last_step{0};    // of the last capture
+        std::optional<std::chrono::steady_clock::time_point> holding_since;
+
+        bool is_full() const { return outstanding >= demand.credits; }
     };
-    bool is_due(Entry& entry, const Moment& now) const;
+    Entry* find(DemandId id);
+    const Entry* find(DemandId id) const;
+    bool is_due(const Entry& entry, const Moment& now) const;
+    static void count_trigger(Entry& entry, const Moment& now);
+    void wake_simulation() const;
 
     mutable std::mutex mutex_;
     std::vector<Entry> entries_;
     std::vector<CaptureFor> captures_;
     std::vector<DemandId> failed_;
     DemandId last_id_{0};
+    std::uint64_t generation_{0};
     server::Doorbell doorbell_;
-    std::function<void()> wake_simulation_;
+    std::function<void()> waker_;
 };
 
 }  // namespace headrace::publish

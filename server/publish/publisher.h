@@ -31,6 +31,10 @@ struct PublisherOptions {
 using PublisherRequest =
     std::variant<proto::StreamOpen, proto::StreamAck, proto::StreamClose, proto::RecordStart, proto::RecordStop>;
 
+struct PublisherCounts {
+    std::size_t streams{0}, recordings{0};
+};
+
 class Publisher {
   public:
     // Binds the three sockets; throws std::runtime_error naming the endpoint when one cannot be bound.
@@ -42,6 +46,8 @@ class Publisher {
     const std::string& events_endpoint() const;
     const std::string& frames_endpoint() const;
     const std::string& data_endpoint() const;
+
+    PublisherCounts counts() const;  // any thread
 
     void start();
     void stop();  // finishes recordings, flushes events, joins; idempotent

@@ -22,6 +22,8 @@ struct BuildControl {
     std::atomic<bool> cancelled{false};
 };
 
+inline constexpr std::size_t kMostObjects = 1'000;
+
 class Run {
   public:
     // Validates the scene's meaning (values, overlaps with the model's table, counts) and builds it: samples the
@@ -32,7 +34,7 @@ class Run {
     // One step of the model. Precondition: no fault so far.
     const solver::StepReport& step();
 
-    const proto::SceneDesc& scene() const { return scene_; }
+    const proto::SceneDesc& scene() const { return scene_; }  // as loaded
     const solver::Particles& particles() const { return particles_; }
     const solver::Model& model() const { return *model_; }
     const solver::StepReport& last_report() const { return report_; }
@@ -45,7 +47,7 @@ class Run {
 
     // Mutations between steps. Errors carry the path below "params".
     proto::Status set_parameters(const proto::Parameters& values, proto::Parameters* previous = nullptr);
-    std::vector<proto::ObjectDesc> objects() const;
+    const std::vector<proto::ObjectDesc>& objects() const { return object_descs_; }
     proto::Status add_object(const proto::ObjectDesc& object);
     proto::Status move_object(const std::string& name, const std::optional<proto::Vec3>& to,
                               const std::optional<proto::Vec3>& by);
@@ -58,7 +60,8 @@ class Run {
 
     proto::SceneDesc scene_;
     solver::Particles particles_;
-    std::vector<solver::CollisionObject> objects_;
+    std::vector<proto::ObjectDesc> object_descs_;   // as they are now
+    std::vector<solver::CollisionObject> objects_;  // the same, for the solver
     solver::Domain domain_;
     std::unique_ptr<solver::Model> model_;
     solver::StepReport report_;

@@ -1,0 +1,27 @@
+// Watches whether the fluid has come to rest, by the scene's criterion.
+#pragma once
+
+#include <optional>
+
+#include "proto/scene_desc.h"
+#include "server/scene/run.h"
+
+namespace headrace::server {
+
+class AtRestWatch {
+  public:
+    explicit AtRestWatch(const scene::Run& run);
+
+    // After each step, when somebody asks. True once the share of slow particles has been large enough for the
+    // criterion's duration; stays true while that lasts.
+    bool update(const scene::Run& run);
+
+    double threshold_speed() const { return threshold_; }  // [m/s]
+
+  private:
+    proto::AtRestDesc criterion_;
+    double threshold_{};                // [m/s] factor * sqrt(|g| H)
+    std::optional<double> slow_since_;  // [s]
+};
+
+}  // namespace headrace::server

@@ -1,0 +1,277 @@
+#include "server/publish/publisher.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+#include <zmq.hpp>
+
+#include "proto/messages_json.h"
+#include "server/publish/data_socket.h"
+#include "server/publish/encode.h"
+#include "server/publish/live_streams.h"
+#include "server/publish/lossless_streams.h"
+#include "server/publish/recorder.h"
+
+namespace headrace::publish {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+struct CommandLine {
+    std::string json;
+    double time{};  // [s]
+};
+struct Errand {
+    server::Token token{};
+    std::variant<PublisherRequest, CommandLine> what;
+};
+
+zmq::socket_t make_socket(zmq::context_t& context, zmq::socket_type type, const std::string& endpoint) {
+    zmq::socket_t socket(context, type);
+    socket.set(zmq::sockopt::linger, 0);
+    socket.set(zmq::sockopt::heartbeat_ivl, 5'000);
+    socket.set(zmq::sockopt::heartbeat_timeout, 60'000);  // large transfers trip short ones
+    if (endpoint.find('[') != std::string::npos) socket.set(zmq::sockopt::ipv6, true);
+    return socket;
+}
+
+std::string listen(zmq::socket_t& socket, const std::string& endpoint) {
+    try {
+        socket.bind(endpoint);
+    } catch (const zmq::error_t& error) {
+        throw std::runtime_error("cannot listen on " + endpoint + ": " + error.what() +
+                                 "; is another headraced running there? choose another --bind");
+    }
+    return socket.get(zmq::sockopt::last_endpoint);
+}
+
+}  // namespace
+
+struct Publisher::Impl {
+    Impl(zmq::context_t& context, const PublisherOptions& options, FrameHub& frame_hub, server::EventLog& event_log,
+         const server::StatusBoard& status_board, server::Outbox& replies)
+        : hub(frame_hub),
+          events(event_log),
+          board(status_board),
+          outbox(replies),
+          events_socket(make_socket(context, zmq::socket_type::xpub, options.events_endpoint)),
+          frames_socket(make_socket(context, zmq::socket_type::xpub, options.frames_endpoint)),
+          data(make_socket(context, zmq::socket_type::router, options.data_endpoint)),
+          live(hub, frames_socket, options.session),
+          lossless(hub, data, options.session, events, board),
+          recorder(hub, events, board, options.session, options.data_folder),
+          data_socket(hub, data, lossless, board, options.session, static_cast<std::size_t>(options.soft_message_limit),
+                      [this] { deliver_captures(); }) {
+        events_socket.set(zmq::sockopt::sndhwm, 10'000);
+        events_socket.set(zmq::sockopt::xpub_verbose, true);
+        frames_socket.set(zmq::sockopt::sndhwm, 2);
+        frames_socket.set(zmq::sockopt::xpub_verbose, true);
+        data.set(zmq::sockopt::router_mandatory, true);
+        data.set(zmq::sockopt::sndhwm, 2'048);  // above the largest window
+        data.set(zmq::sockopt::maxmsgsize, options.hard_message_limit);
+        events_endpoint = listen(events_socket, options.events_endpoint);
+        frames_endpoint = listen(frames_socket, options.frames_endpoint);
+        data_endpoint = listen(data, options.data_endpoint);
+        events.add_listener(hub.doorbell());
+    }
+
+    // ---- the thread -------------------------------------------------------------------------------------------------
+
+    void run() {
+        while (!stopping) {
+            wait();
+            hub.doorbell().quiet();
+            deliver_captures();
+            for (const DemandId id : hub.take_failed()) lossless.fail_overrun(id);
+            run_errands();
+            live.read_subscriptions();
+            read_event_subscriptions();
+            data_socket.read_requests();
+            next_stall_check = lossless.check_stalls();
+            publish_events();
+            publish_status();
+        }
+        deliver_captures();
+        run_errands();
+        recorder.stop_all("because the server stops");
+        publish_events();
+        data_socket.refuse_waiting(
+            {proto::ErrorCode::shutting_down, "the server is shutting down", "", "start it again"});
+    }
+
+    void wait() {
+        zmq::pollitem_t items[] = {{nullptr, hub.doorbell().fd(), ZMQ_POLLIN, 0},
+                                   {events_socket.handle(), 0, ZMQ_POLLIN, 0},
+                                   {frames_socket.handle(), 0, ZMQ_POLLIN, 0},
+                                   {data.handle(), 0, ZMQ_POLLIN, 0}};
+        auto deadline = next_stall_check;
+        if (is_status_wanted) deadline = std::min(deadline, next_status);
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+        zmq::poll(items, std::size(items), std::max(left, std::chrono::milliseconds(0)));
+    }
+
+    void deliver_captures() {
+        for (const CaptureFor& capture : hub.take()) {
+            // Captures nobody claims belong to a consumer that has gone meanwhile.
+            [[maybe_unused]] const bool claimed = live.deliver(capture) || lossless.deliver(capture) ||
+                                                  recorder.deliver(capture) || data_socket.deliver(capture);
+        }
+    }
+
+    void run_errands() {
+        std::vector<Errand> todo;
+        {
+            const std::lock_guard lock(mutex);
+            todo.swap(errands);
+        }
+        for (Errand& errand : todo) {
+            if (const auto* line = std::get_if<CommandLine>(&errand.what)) {
+                recorder.write_command(line->json, line->time);
+                continue;
+            }
+            deliver_captures();
+            outbox.put(errand.token, std::visit([&](const auto& request) { return handle(request); },
+                                                std::get<PublisherRequest>(errand.what)));
+        }
+        counts = {live.size() + lossless.size(), recorder.size()};
+    }
+
+    template <class Reply>
+    static proto::Result<proto::Reply> widen(proto::Result<Reply> result) {
+        if (!result) return result.error();
+        return proto::Reply(std::move(*result));
+    }
+
+    proto::Result<proto::Reply> handle(const proto::StreamOpen& request) { return widen(live.open(request)); }
+    proto::Result<proto::Reply> handle(const proto::StreamAck& request) { return widen(lossless.ack(request)); }
+    proto::Result<proto::Reply> handle(const proto::StreamClose& request) {
+        return widen(lossless.has(request.stream) ? lossless.close(request.stream) : live.close(request.stream));
+    }
+    proto::Result<proto::Reply> handle(const proto::RecordStart& request) { return widen(recorder.start(request)); }
+    proto::Result<proto::Reply> handle(const proto::RecordStop& request) {
+        return widen(recorder.stop(request.recording));
+    }
+
+    // ---- events and status ------------------------------------------------------------------------------------------
+
+    void publish_events() {
+        const proto::EventsSinceReply news = events.since({published_seq, 0.0, {}, 1'000'000});
+        published_seq = news.last_seq;
+        for (const proto::Event& event : news.events) {
+            recorder.write_event(event);
+            const std::string topic = event.type.substr(0, event.type.find('.'));
+            events_socket.send(text_message(topic, proto::event_text(event)), zmq::send_flags::dontwait);
+        }
+    }
+
+    void read_event_subscriptions() {
+        zmq::message_t message;
+        while (events_socket.recv(message, zmq::recv_flags::dontwait)) {
+            const std::string text = message.to_string();
+            if (text.empty() || !matches(text.substr(1), "status")) continue;
+            if (text[0] == '\1')
+                status_subscriptions.insert(text.substr(1));
+            else
+                status_subscriptions.erase(text.substr(1));
+        }
+        is_status_wanted = !status_subscriptions.empty();
+    }
+
+    void publish_status() {
+        const auto now = Clock::now();
+        if (!is_status_wanted || now < next_status) return;
+        next_status = now + std::chrono::seconds(1);
+        events_socket.send(text_message("status", proto::to_json(board.read()->status).dump()),
+                           zmq::send_flags::dontwait);
+    }
+
+    FrameHub& hub;
+    server::EventLog& events;
+    const server::StatusBoard& board;
+    server::Outbox& outbox;
+
+    zmq::socket_t events_socket, frames_socket, data;
+    std::string events_endpoint, frames_endpoint, data_endpoint;
+
+    LiveStreams live;
+    LosslessStreams lossless;
+    Recorder recorder;
+    DataSocket data_socket;
+
+    std::uint64_t published_seq{0};
+    std::set<std::string> status_subscriptions;
+    bool is_status_wanted{false};
+    Clock::time_point next_status{};
+    Clock::time_point next_stall_check{Clock::now() + std::chrono::hours(1)};
+
+    struct Counts {
+        std::size_t streams{0}, recordings{0};
+    };
+    std::atomic<Counts> counts{};
+
+    std::mutex mutex;
+    std::vector<Errand> errands;
+    std::atomic<bool> stopping{false};
+    std::thread thread;
+};
+
+Publisher::Publisher(zmq::context_t& context, const PublisherOptions& options, FrameHub& hub, server::EventLog& events,
+                     const server::StatusBoard& board, server::Outbox& outbox)
+    : impl_(std::make_unique<Impl>(context, options, hub, events, board, outbox)) {}
+
+Publisher::~Publisher() {
+    stop();
+}
+
+const std::string& Publisher::events_endpoint() const {
+    return impl_->events_endpoint;
+}
+const std::string& Publisher::frames_endpoint() const {
+    return impl_->frames_endpoint;
+}
+const std::string& Publisher::data_endpoint() const {
+    return impl_->data_endpoint;
+}
+
+PublisherCounts Publisher::counts() const {
+    const Impl::Counts counts = impl_->counts;
+    return {counts.streams, counts.recordings};
+}
+
+void Publisher::start() {
+    impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
+}
+
+void Publisher::stop() {
+    if (!impl_->thread.joinable()) return;
+    impl_->stopping = true;
+    impl_->hub.doorbell().ring();
+    impl_->thread.join();
+}
+
+void Publisher::post(server::Token token, PublisherRequest request) {
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->errands.push_back({token, std::move(request)});
+    }
+    impl_->hub.doorbell().ring();
+}
+
+void Publisher::log_command(std::string json, double time) {
+    if (impl_->counts.load().recordings == 0) return;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->errands.push_back({0, CommandLine{std::move(json), time}});
+    }
+    impl_->hub.doorbell().ring();
+}
+
+}  // namespace headrace::publish

@@ -1,0 +1,179 @@
+#include "server/scene/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "proto/suggest.h"
+#include "server/scene/sampling.h"
+#include "server/scene/shapes.h"
+#include "server/scene/validate.h"
+#include "server/solver/models/registry.h"
+
+namespace headrace::scene {
+
+namespace {
+
+using proto::Done;
+using proto::Error;
+using proto::ErrorCode;
+using proto::Result;
+using proto::Status;
+
+// Positions and velocities of all fluids in the scene's order; ids count up from 0.
+Result<solver::Particles> sample_fluids(const proto::SceneDesc& scene, BuildControl& control) {
+    const auto count = static_cast<std::size_t>(count_particles(scene));
+
+    solver::Particles particles;
+    particles.dimensions = scene.dimensions;
+    particles.resize(count);
+    std::size_t slot = 0;
+    for (const proto::FluidDesc& fluid : scene.fluids)
+        for_each_lattice_point(fluid.shape, scene.dimensions, scene.spacing, [&](const proto::Vec3& x) {
+            for (int k = 0; k < scene.dimensions; ++k) {
+                particles.x[k][slot] = x[k];
+                particles.v[k][slot] = fluid.velocity[k];
+            }
+            particles.id[slot] = static_cast<solver::Index>(slot);
+            ++slot;
+            if (slot % 65'536 == 0) control.progress = 0.5 * static_cast<double>(slot) / static_cast<double>(count);
+            return !control.cancelled;
+        });
+    if (control.cancelled) return Error{ErrorCode::cancelled, "loading was cancelled", "", "load it again"};
+    return particles;
+}
+
+// Extent of the particles against gravity, one spacing for the particles' own size included; without gravity the
+// largest extent.
+double height_of(const solver::Particles& particles, const solver::Vec3& gravity, double spacing) {
+    const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
+    double height = 0.0;
+    for (int axis = 0; axis < particles.dimensions; ++axis) {
+        const auto [low, high] = std::minmax_element(particles.x[axis].begin(), particles.x[axis].end());
+        const double extent = *high - *low + spacing;
+        if (g == 0.0)
+            height = std::max(height, extent);
+        else
+            height += extent * std::abs(gravity[axis]) / g;
+    }
+    return height;
+}
+
+}  // namespace
+
+std::int64_t count_particles(const proto::SceneDesc& scene) {
+    std::int64_t count = 0;
+    for (const proto::FluidDesc& fluid : scene.fluids) {
+        if (std::holds_alternative<proto::BoxDesc>(fluid.shape)) {
+            count += lattice_size(fluid.shape, scene.dimensions, scene.spacing);
+            continue;
+        }
+        for_each_lattice_point(fluid.shape, scene.dimensions, scene.spacing,
+                               [&](const proto::Vec3&) { return ++count, true; });
+    }
+    return count;
+}
+
+Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildControl* control) {
+    BuildControl nobody;
+    BuildControl& watched = control != nullptr ? *control : nobody;
+    if (Status status = validate(scene); !status) return status.error();
+
+    std::unique_ptr<Run> run(new Run);
+    run->scene_ = scene;
+    run->domain_ = {scene.domain.min, scene.domain.max};
+    run->object_descs_ = scene.objects;
+    for (const proto::ObjectDesc& object : scene.objects)
+        run->objects_.push_back(to_collision_object(object, scene.dimensions));
+
+    Result<solver::Particles> particles = sample_fluids(scene, watched);
+    if (!particles) return particles.error();
+    run->particles_ = std::move(*particles);
+
+    run->model_ = solver::make_model(scene.model, scene.dimensions, scene.spacing, scene.parameters);
+    run->fluid_height_ = height_of(run->particles_, run->model_->gravity(), scene.spacing);
+    run->report_ = run->model_->initialise(run->particles_, run->surroundings());
+    if (run->report_.fault)
+        return Error{ErrorCode::scene_invalid,
+                     "particle " + std::to_string(run->report_.fault->particle) + " is bad at the start", "scene",
+                     run->report_.fault->remedy};
+    if (watched.cancelled) return Error{ErrorCode::cancelled, "loading was cancelled", "", "load it again"};
+    watched.progress = 1.0;
+    return run;
+}
+
+const solver::StepReport& Run::step() {
+    report_ = model_->step(particles_, surroundings());
+    ++step_number_;
+    time_ += report_.dt;
+    return report_;
+}
+
+std::vector<solver::Stage> Run::plan() const {
+    return model_->plan(surroundings());
+}
+
+solver::Diagnostics Run::diagnostics() const {
+    return solver::compute_diagnostics(particles_, model_->particle_mass(), model_->gravity());
+}
+
+Status Run::set_parameters(const proto::Parameters& values, proto::Parameters* previous) {
+    const solver::ParameterMap before = model_->parameters();
+    if (const auto refusal = model_->set_parameters(values))
+        return parameter_error(*refusal, model_->parameter_table(), "params.parameters");
+    if (previous != nullptr)
+        for (const auto& [name, value] : values) previous->insert_or_assign(name, before.at(name));
+    return Done{};
+}
+
+Result<std::size_t> Run::find_object(const std::string& name) const {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < object_descs_.size(); ++k) {
+        if (object_descs_[k].name == name) return k;
+        names.push_back(object_descs_[k].name);
+    }
+    return Error{ErrorCode::object_not_found, "no object \"" + name + "\"", "params.name",
+                 names.empty() ? "the scene has no objects" : proto::suggest(name, names)};
+}
+
+Status Run::add_object(const proto::ObjectDesc& object) {
+    if (Status status = validate_object(object, scene_.dimensions, "params.object"); !status) {
+        Error error = status.error();
+        error.code = ErrorCode::invalid_params;
+        return error;
+    }
+    if (find_object(object.name))
+        return Error{ErrorCode::object_exists, "there is an object \"" + object.name + "\" already",
+                     "params.object.name", "choose another name, or objects.remove it first"};
+    if (object_descs_.size() >= kMostObjects)
+        return Error{ErrorCode::limit_exceeded, "there are " + std::to_string(kMostObjects) + " objects already",
+                     "params.object", "objects.remove some first"};
+    object_descs_.push_back(object);
+    objects_.push_back(to_collision_object(object, scene_.dimensions));
+    return Done{};
+}
+
+Status Run::move_object(const std::string& name, const std::optional<proto::Vec3>& to,
+                        const std::optional<proto::Vec3>& by) {
+    const Result<std::size_t> found = find_object(name);
+    if (!found) return found.error();
+    proto::ObjectDesc& object = object_descs_[*found];
+    proto::Vec3 displacement = by.value_or(proto::Vec3{});
+    if (to) {
+        const proto::Vec3 center = center_of(object.shape);
+        for (int k = 0; k < scene_.dimensions; ++k) displacement[k] = (*to)[k] - center[k];
+    }
+    object.shape = moved_by(object.shape, displacement);
+    objects_[*found] = to_collision_object(object, scene_.dimensions);
+    return Done{};
+}
+
+Status Run::remove_object(const std::string& name) {
+    const Result<std::size_t> found = find_object(name);
+    if (!found) return found.error();
+    object_descs_.erase(object_descs_.begin() + static_cast<std::ptrdiff_t>(*found));
+    objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(*found));
+    return Done{};
+}
+
+}  // namespace headrace::scene
