@@ -306,7 +306,7 @@ using EventValue = std::variant<bool, std::int64_t, double, std::string>;
 // Types (the stable list is in proto/README.md): server.started scene.loaded scene.load_failed job.started job.ended
 // job.paused job.resumed sim.at_rest sim.faulted params.changed object.added object.moved object.removed
 // scene_event.fired stream.opened stream.closed stream.failed stream.stalled record.started record.stopped
-// record.failed status server.stopping
+// record.failed server.problem server.stopping
 struct Event {
     std::uint64_t seq{};  // from 1, gap-free within a session
     std::string type;

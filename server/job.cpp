@@ -1,5 +1,6 @@
 #include "server/job.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace headrace::server {
@@ -47,7 +48,8 @@ void Job::pause() {
 
 std::optional<Clock::time_point> Job::next_step_at(const Place& now, double dt) const {
     if (!pace) return std::nullopt;
-    const std::chrono::duration<double> ahead((now.time + dt - pace_time) / *pace);
+    constexpr double kLongest = 1e8;  // [s] keeps a tiny pace within the clock's range
+    const std::chrono::duration<double> ahead(std::fmin((now.time + dt - pace_time) / *pace, kLongest));
     return pace_wall + std::chrono::duration_cast<Clock::duration>(ahead);
 }
 

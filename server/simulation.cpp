@@ -99,6 +99,8 @@ struct Simulation::Impl {
     }
 
     void step() {
+        if (run->step_number() == 0) fire_scene_events();  // those of step 0 and time 0
+        if (!job) return;                                  // paused by one of them
         apply_due_parameters();
         const solver::StepReport& report = run->step();
         if (report.fault) return fault(*report.fault);
@@ -147,8 +149,12 @@ struct Simulation::Impl {
     // ---- mutations --------------------------------------------------------------------------------------------------
 
     void apply(InboxItem item) {
-        std::visit([&](auto&& mutation) { apply(item.token, std::forward<decltype(mutation)>(mutation)); },
-                   std::move(item.mutation));
+        try {
+            std::visit([&](auto&& mutation) { apply(item.token, std::forward<decltype(mutation)>(mutation)); },
+                       std::move(item.mutation));
+        } catch (const std::exception& problem) {
+            outbox.put(item.token, Error{ErrorCode::internal_error, problem.what(), "", "report this as a bug"});
+        }
     }
 
     // Answers a refusal; true when the method may go on.

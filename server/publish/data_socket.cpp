@@ -1,6 +1,8 @@
 #include "server/publish/data_socket.h"
 
+#include <exception>
 #include <utility>
+#include <vector>
 
 #include "proto/envelope.h"
 #include "server/publish/encode.h"
@@ -24,7 +26,7 @@ std::string reply_text(const std::string& id, const proto::Result<Reply>& result
 
 void DataSocket::read_requests() {
     zmq::message_t identity;
-    while (socket_.recv(identity, zmq::recv_flags::dontwait)) {
+    for (int k = 0; k < kMostPerTurn && socket_.recv(identity, zmq::recv_flags::dontwait); ++k) {
         Peer peer{identity.to_string(), false};
         std::vector<zmq::message_t> parts;
         while (socket_.get(zmq::sockopt::rcvmore)) {
@@ -36,10 +38,19 @@ void DataSocket::read_requests() {
             parts.erase(parts.begin());
         }
         if (parts.size() == 1)
-            handle(peer, parts.front().to_string_view());
+            handle_safely(peer, parts.front().to_string_view());
         else
             answer(peer, proto::rpc_error_text("null", {ErrorCode::invalid_request, "a request is one message part", "",
                                                         "send JSON in one part"}));
+    }
+}
+
+void DataSocket::handle_safely(const Peer& peer, std::string_view text) {
+    try {
+        handle(peer, text);
+    } catch (const std::exception& problem) {
+        answer(peer,
+               proto::rpc_error_text("null", {ErrorCode::internal_error, problem.what(), "", "report this as a bug"}));
     }
 }
 

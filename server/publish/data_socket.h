@@ -38,6 +38,7 @@ class DataSocket {
         Peer peer;
         std::string id;  // of the request, JSON text
     };
+    void handle_safely(const Peer& peer, std::string_view text);  // an exception is answered, too
     void handle(const Peer& peer, std::string_view text);
     void answer(const Peer& peer, const std::string& text);
     bool send_head(const Peer& peer);

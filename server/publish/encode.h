@@ -9,6 +9,9 @@
 
 namespace headrace::publish {
 
+// Messages read from one socket before the others get their turn: a flood starves nobody.
+inline constexpr int kMostPerTurn = 100;
+
 // One frame message with the chosen fields of a capture.
 zmq::message_t encode_capture(const Capture& capture, proto::FieldSet fields, const std::string& topic,
                               std::uint64_t session, std::uint64_t seq);

@@ -59,7 +59,7 @@ bool LiveStreams::deliver(const CaptureFor& capture) {
 
 void LiveStreams::read_subscriptions() {
     zmq::message_t message;
-    while (socket_.recv(message, zmq::recv_flags::dontwait)) {
+    for (int k = 0; k < kMostPerTurn && socket_.recv(message, zmq::recv_flags::dontwait); ++k) {
         const std::string text = message.to_string();
         if (text.empty() || (text[0] != '\0' && text[0] != '\1')) continue;  // not a subscription
         const std::string prefix = text.substr(1);

@@ -37,6 +37,8 @@ struct Errand {
 zmq::socket_t make_socket(zmq::context_t& context, zmq::socket_type type, const std::string& endpoint) {
     zmq::socket_t socket(context, type);
     socket.set(zmq::sockopt::linger, 0);
+    socket.set(zmq::sockopt::affinity,
+               std::uint64_t{2});  // not the I/O thread of the control socket: frames do not delay commands
     socket.set(zmq::sockopt::heartbeat_ivl, 5'000);
     socket.set(zmq::sockopt::heartbeat_timeout, 60'000);  // large transfers trip short ones
     if (endpoint.find('[') != std::string::npos) socket.set(zmq::sockopt::ipv6, true);
@@ -72,6 +74,9 @@ struct Publisher::Impl {
                       [this] { deliver_captures(); }) {
         events_socket.set(zmq::sockopt::sndhwm, 10'000);
         events_socket.set(zmq::sockopt::xpub_verbose, true);
+        // What subscribers send are topics.
+        events_socket.set(zmq::sockopt::maxmsgsize, std::int64_t{1} << 16);
+        frames_socket.set(zmq::sockopt::maxmsgsize, std::int64_t{1} << 16);
         frames_socket.set(zmq::sockopt::sndhwm, 2);
         frames_socket.set(zmq::sockopt::xpub_verbose, true);
         data.set(zmq::sockopt::router_mandatory, true);
@@ -87,24 +92,54 @@ struct Publisher::Impl {
 
     void run() {
         while (!stopping) {
-            wait();
-            hub.doorbell().quiet();
-            deliver_captures();
-            for (const DemandId id : hub.take_failed()) lossless.fail_overrun(id);
-            run_errands();
-            live.read_subscriptions();
-            read_event_subscriptions();
-            data_socket.read_requests();
-            next_stall_check = lossless.check_stalls();
-            publish_events();
-            publish_status();
+            try {
+                turn();
+            } catch (const std::exception& problem) {
+                report_problem(problem.what());
+            }
         }
+        try {
+            say_goodbye();
+        } catch (const std::exception& problem) {
+            report_problem(problem.what());
+        }
+    }
+
+    void turn() {
+        wait();
+        hub.doorbell().quiet();
+        deliver_captures();
+        for (const DemandId id : hub.take_failed()) lossless.fail_overrun(id);
+        run_errands();
+        live.read_subscriptions();
+        read_event_subscriptions();
+        data_socket.read_requests();
+        next_stall_check = lossless.check_stalls();
+        publish_events();
+        publish_status();
+    }
+
+    void say_goodbye() {
+        // The last words get a second to leave.
+        data.set(zmq::sockopt::linger, 1'000);
+        events_socket.set(zmq::sockopt::linger, 1'000);
         deliver_captures();
         run_errands();
         recorder.stop_all("because the server stops");
         publish_events();
         data_socket.refuse_waiting(
             {proto::ErrorCode::shutting_down, "the server is shutting down", "", "start it again"});
+    }
+
+    void report_problem(const char* what) noexcept {
+        try {
+            proto::Event event;
+            event.type = "server.problem";
+            event.message = std::string("publisher: ") + what;
+            events.add(std::move(event));
+        } catch (const std::exception&) {
+            // No memory even for the report; the next turn may fare better.
+        }
     }
 
     void wait() {
@@ -141,7 +176,8 @@ struct Publisher::Impl {
             outbox.put(errand.token, std::visit([&](const auto& request) { return handle(request); },
                                                 std::get<PublisherRequest>(errand.what)));
         }
-        counts = {live.size() + lossless.size(), recorder.size()};
+        counts = Counts{static_cast<std::uint32_t>(live.size() + lossless.size()),
+                        static_cast<std::uint32_t>(recorder.size())};
     }
 
     template <class Reply>
@@ -174,7 +210,7 @@ struct Publisher::Impl {
 
     void read_event_subscriptions() {
         zmq::message_t message;
-        while (events_socket.recv(message, zmq::recv_flags::dontwait)) {
+        for (int k = 0; k < kMostPerTurn && events_socket.recv(message, zmq::recv_flags::dontwait); ++k) {
             const std::string text = message.to_string();
             if (text.empty() || !matches(text.substr(1), "status")) continue;
             if (text[0] == '\1')
@@ -213,9 +249,9 @@ struct Publisher::Impl {
     Clock::time_point next_stall_check{Clock::now() + std::chrono::hours(1)};
 
     struct Counts {
-        std::size_t streams{0}, recordings{0};
+        std::uint32_t streams{0}, recordings{0};
     };
-    std::atomic<Counts> counts{};
+    std::atomic<Counts> counts{};  // 8 bytes: lock-free
 
     std::mutex mutex;
     std::vector<Errand> errands;
