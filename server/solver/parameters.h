@@ -24,8 +24,8 @@ struct ParameterInfo {
     ParameterValue default_value;
     double min{-std::numeric_limits<double>::infinity()};  // for numbers (each component of a vector)
     double max{std::numeric_limits<double>::infinity()};
-    bool min_is_exclusive{false};      // true: must be greater than min
-    std::vector<std::string> choices;  // for strings
+    bool min_is_exclusive{false};        // true: must be greater than min
+    std::vector<std::string> choices{};  // for strings
 };
 
 // Why a set of parameters was refused.
