@@ -1,5 +1,5 @@
-// The JSON-RPC 2.0 envelope, for server and client alike: one object per message, no batches. Includes the JSON library:
-// for .cpp files that handle requests only.
+// The JSON-RPC 2.0 envelope, for server and client alike: one object per message, no batches. Includes the JSON
+// library: for .cpp files that handle requests only.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ std::string rpc_error_text(std::string_view id, const Error& error);
 // Client side.
 std::string rpc_request_text(std::int64_t id, std::string_view method, const Json& params);
 struct RpcReply {
-    std::int64_t id{};
+    std::int64_t id{};  // 0 when the server could not read the request's id
     Result<Json> result;
 };
 Result<RpcReply> parse_rpc_reply(std::string_view text);

@@ -1,5 +1,6 @@
 // Struct <-> JSON text, for every message and the scene document. Strict: unknown members, wrong types, duplicate keys,
 // nesting past 32, non-finite numbers and values out of range are refused with the JSON path, the unit and a hint.
+// Replies and events are read tolerantly in one respect: members that a newer peer may have added are passed over.
 // Only the .cpp files of messages_json and the command tables include the JSON library's full header.
 #pragma once
 
@@ -21,6 +22,9 @@ inline constexpr int kMaxJsonDepth = 32;
 Result<Json> parse_json(std::string_view text);
 
 // Decodes a message's params (or a result) from JSON. `path` is the name of the root in error paths, e.g. "params".
+// Integers may be written as 1e3 or 2.0 when they are exact (up to 2^53). Vectors take 2 or 3 numbers, 3 in a scene of
+// 3 dimensions; with 2 the third is 0. Where a reply's number may be non-finite it travels as the string "NaN",
+// "Infinity" or "-Infinity".
 // Defined for every request and reply struct of messages.h, for SceneDesc and for ObjectDesc.
 template <class Message>
 Result<Message> from_json(const Json& json, std::string_view path);
@@ -31,6 +35,11 @@ Json to_json(const Message& message);
 // JSON schema (2020-12) of a message: types, units, ranges, defaults, meanings. Same source as the decoder.
 template <class Message>
 Json json_schema();
+
+// Schema of a method's params and result, by name; null when there is no such method.
+Json method_params_schema(std::string_view method);
+Json method_result_schema(std::string_view method);
+Json error_schema();  // of what error_json gives
 
 // Text in, text out, for those who do not want the JSON library.
 Result<SceneDesc> parse_scene(std::string_view text);

@@ -138,8 +138,9 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& stopped) {
-        const int status = app.exit(stopped, std::cout, std::cerr);  // 0 for --help and --version
-        return status == 0 ? 0 : kExitUsage;
+        if (stopped.get_exit_code() == 0) return app.exit(stopped);  // --help, --version
+        options.server.log(LogLevel::error, std::string(stopped.what()) + " (headraced --help tells the options)");
+        return kExitUsage;
     }
     options.server.data_folder = options.data;
     options.server.log = Log(*headrace::server::find_log_level(options.log_level));

@@ -1,0 +1,74 @@
+#include "client/cli.h"
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "client/arguments.h"
+#include "client/endpoints.h"
+#include "client/interrupt.h"
+#include "client/text.h"
+#include "proto/version.h"
+
+namespace headrace::client {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(A server is chosen by --server, else by HEADRACE_SERVER, else it is tcp://127.0.0.1:5755. `run` and `plan`
+need none: they start a private headraced (HEADRACE_SERVER_BINARY, else the one beside this program).
+
+Exit status:
+  0  done                                  5  not possible in this state, busy, cancelled
+  1  anything else                         6  a file cannot be read or written
+  2  wrong usage, or a bad request         7  the simulation has faulted
+  3  no server answers, or it is foreign   8  timed out
+  4  there is no such thing              130  interrupted (Ctrl-C); files are complete)";
+
+int exit_status(const proto::Status& outcome) {
+    if (is_interrupted()) {
+        if (!outcome && outcome.error().code != proto::ErrorCode::cancelled)
+            std::cerr << error_line(outcome.error()) << "\n";
+        return kInterruptedExit;
+    }
+    if (outcome) return 0;
+    std::cerr << error_line(outcome.error()) << "\n";
+    return proto::error_info(outcome.error().code).exit_code;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+    CLI::App app("Commands a fluid simulation: loads scenes, runs, changes, records and converts them.", "headrace");
+    CommandLine line;
+    app.require_subcommand(1);
+    app.fallthrough();  // global options may stand behind the subcommand
+    app.set_version_flag("--version", std::string("headrace ") + proto::kProgramVersion);
+    app.footer(kFooter);
+    app.add_option("--server", line.globals.server, "control endpoint, tcp://HOST:PORT or ipc://PATH");
+    app.add_flag("--json", line.globals.json, "print the result as JSON");
+    add_local_run_command(app, line);
+    add_scene_commands(app, line);
+    add_run_commands(app, line);
+    add_parameter_commands(app, line);
+    add_object_commands(app, line);
+    add_record_command(app, line);
+    add_file_commands(app, line);
+    add_raw_commands(app, line);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& wanted) {
+        return app.exit(wanted);  // --help, --version
+    } catch (const CLI::ParseError& error) {
+        return exit_status(usage_error(error.what(), "", "headrace --help, or headrace COMMAND --help"));
+    }
+
+    watch_interrupts();
+    try {
+        return exit_status(line.action());
+    } catch (const std::exception& error) {
+        return exit_status(proto::Error{proto::ErrorCode::internal_error, error.what(), "", ""});
+    }
+}
+
+}  // namespace headrace::client

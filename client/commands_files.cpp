@@ -1,0 +1,137 @@
+// convert, info
+#include "client/arguments.h"
+#include "client/command.h"
+#include "client/convert.h"
+#include "client/text.h"
+#include "proto/recording.h"
+#include "proto/suggest.h"
+
+namespace headrace::client {
+
+namespace {
+
+struct ConvertWords {
+    std::string file, formats, out, field{"velocity"}, range, size;
+    std::optional<double> from, to;
+    std::size_t every{1};
+    std::optional<int> sheet;
+    bool sheet_only{false};
+};
+
+proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
+    ConvertOptions options;
+    options.recording = words.file;
+    options.folder = words.out;
+    options.formats = split(words.formats, ',');
+    options.every = words.every;
+    options.from = words.from;
+    options.to = words.to;
+    const auto field = proto::find_field(words.field);
+    if (!field) {
+        std::vector<std::string> known;
+        for (const proto::FieldInfo& info : proto::kFields) known.emplace_back(info.name);
+        return usage_error("there is no field \"" + words.field + "\"", "--field", proto::suggest(words.field, known));
+    }
+    options.picture.color_field = *field;
+    if (!words.range.empty()) {
+        auto range = parse_range(words.range);
+        if (!range) return range.error();
+        options.picture.color_min = range->first;
+        options.picture.color_max = range->second;
+    }
+    if (!words.size.empty()) {
+        auto size = parse_size(words.size);
+        if (!size) return size.error();
+        options.picture.width = size->first;
+        options.picture.height = size->second;
+    }
+    if (words.sheet) options.picture.sheet_frames = *words.sheet;
+    options.picture.every_frame = !words.sheet_only;
+    return options;
+}
+
+proto::Status convert_file(const Globals& globals, const ConvertWords& words) {
+    auto options = convert_options(words);
+    if (!options) return options.error();
+    auto conversion = convert(*options);
+    if (!conversion) return conversion.error();
+    if (globals.json) {
+        print_json({{"frames", conversion->frames}, {"summaries", conversion->summaries}});
+        return proto::Done{};
+    }
+    // The first format is what the user opens next; the others are there as well.
+    for (std::size_t k = 0; k < conversion->summaries.size(); ++k)
+        k == 0 ? print_line(conversion->summaries[k]) : print_note(conversion->summaries[k]);
+    return proto::Done{};
+}
+
+proto::Status info(const Globals& globals, const std::string& file) {
+    auto opened = proto::RecordingReader::open(file);
+    if (!opened) return opened.error();
+    const proto::RecordingSummary& summary = (*opened)->summary();
+    auto scene = proto::parse_scene(summary.metadata.scene_json);
+    const std::string scene_name = scene ? scene->name : "?";
+    std::string fields;
+    std::uint64_t particles = 0;
+    if ((*opened)->frame_count() > 0) {
+        auto frame = (*opened)->read_frame(0);
+        if (!frame) return frame.error();
+        particles = frame->info.particle_count;
+        for (const proto::FrameColumn& column : frame->columns)
+            fields += (fields.empty() ? "" : ",") + std::string(proto::field_info(column.field).name);
+    }
+    if (globals.json) {
+        print_json({{"file", file},
+                    {"complete", summary.complete},
+                    {"damaged_bytes", summary.damaged_bytes},
+                    {"frames", summary.frames},
+                    {"gaps", summary.gaps},
+                    {"first_time", summary.first_time},
+                    {"last_time", summary.last_time},
+                    {"scene", scene_name},
+                    {"particles", particles},
+                    {"fields", split(fields, ',')},
+                    {"events", (*opened)->events().size()},
+                    {"program", summary.metadata.program},
+                    {"session", summary.metadata.session}});
+        return proto::Done{};
+    }
+    print_line(
+        file + ": " + (summary.complete ? "complete" : "cut off, readable as far as it goes") + ", " +
+        recording_summary(summary.frames, summary.gaps) +
+        (summary.frames > 0 ? ", t " + number(summary.first_time) + " s to " + number(summary.last_time) + " s" : ""));
+    if (summary.damaged_bytes > 0)
+        print_line(plural(static_cast<std::int64_t>(summary.damaged_bytes), "damaged byte") + " skipped");
+    print_line("scene " + scene_name + ", " + plural(static_cast<std::int64_t>(particles), "particle") + ", fields " +
+               fields + ", " + plural(std::ssize((*opened)->events()), "event"));
+    print_line("made by " + summary.metadata.program + ", session " + summary.metadata.session);
+    return proto::Done{};
+}
+
+}  // namespace
+
+void add_file_commands(CLI::App& app, CommandLine& line) {
+    auto words = std::make_shared<ConvertWords>();
+    CLI::App* converter = add_command(app, line, "convert", "turn a recording into files for other programs",
+                                      [words](const Globals& globals) { return convert_file(globals, *words); });
+    converter->add_option("FILE", words->file, "a recording, .mcap")->required();
+    converter->add_option("--format", words->formats, "vtp, csv, png; several with commas")->required();
+    converter->add_option("--out", words->out, "folder of the results")->required();
+    converter->add_option("--every", words->every, "each so many-th frame")->check(CLI::PositiveNumber);
+    converter->add_option("--from", words->from, "first time [s]");
+    converter->add_option("--to", words->to, "last time [s]");
+    converter->add_option("--field", words->field, "pictures: what the colours show")->capture_default_str();
+    converter->add_option("--range", words->range, "pictures: ends of the colour scale, low:high");
+    converter->add_option("--size", words->size, "pictures: WIDTHxHEIGHT in pixels");
+    converter->add_option("--sheet", words->sheet, "pictures: how many on the contact sheet; 0: no sheet")
+        ->check(CLI::Range(0, 1'000));
+    converter->add_flag("--sheet-only", words->sheet_only, "pictures: the contact sheet alone");
+
+    auto file = std::make_shared<std::string>();
+    add_command(app, line, "info", "tell what a recording holds",
+                [file](const Globals& globals) { return info(globals, *file); })
+        ->add_option("FILE", *file, "a recording, .mcap")
+        ->required();
+}
+
+}  // namespace headrace::client

@@ -1,0 +1,167 @@
+// run: a whole simulation in one command, on a private server
+#include <filesystem>
+
+#include "client/arguments.h"
+#include "client/command.h"
+#include "client/convert.h"
+#include "client/interrupt.h"
+#include "client/jobs.h"
+#include "client/record.h"
+#include "client/record_run.h"
+#include "client/scene_request.h"
+#include "client/spawn.h"
+#include "client/text.h"
+
+namespace headrace::client {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct LocalRun {
+    std::string scene, until, out, formats, fields;
+    std::vector<std::string> assignments, removals;
+    std::optional<std::int64_t> steps;
+    std::optional<double> fps;
+    bool at_rest{false}, overwrite{false};
+    int threads{0};
+};
+
+// Runs one after the other; each may end with an object that leaves.
+struct Phase {
+    proto::RunUntil until;
+    std::string removed;  // afterwards; empty: nothing
+};
+
+proto::Result<std::vector<Phase>> make_phases(const LocalRun& words) {
+    std::vector<Phase> phases;
+    for (const std::string& word : words.removals) {
+        auto removal = parse_removal(word);
+        if (!removal) return removal.error();
+        phases.push_back({removal->when, removal->object});
+    }
+    Phase last;
+    if (words.steps)
+        last.until.steps = *words.steps;
+    else if (words.at_rest || words.until.empty())
+        last.until.at_rest = true;
+    else if (auto until = parse_until(words.until))
+        last.until = *until;
+    else
+        return until.error();
+    phases.push_back(last);
+    return phases;
+}
+
+// Runs all phases, recording. Error: how the first one ended that did not end well.
+proto::Status run_phases(Connection& connection, Recorder& recorder, const std::vector<Phase>& phases,
+                         const std::string& label) {
+    for (const Phase& phase : phases) {
+        auto job = start_run(connection, phase.until);
+        if (job) job = follow_job(connection, &recorder, *job, phase.until, label);
+        if (!job) return job.error();
+        if (is_interrupted()) return proto::Done{};
+        if (auto verdict = job_verdict(connection, *job); !verdict) return verdict;
+        print_note(job_line(*job, phase.until));
+        if (phase.removed.empty()) continue;
+        auto removed = call<proto::Applied>(connection, "objects.remove", proto::ObjectsRemove{phase.removed},
+                                            Patience::while_alive);
+        if (!removed) return removed.error();
+        print_note("removed " + phase.removed + " before step " +
+                   with_thousands(static_cast<std::int64_t>(removed->step)));
+    }
+    return proto::Done{};
+}
+
+struct Recorded {
+    fs::path file;
+    std::uint64_t frames{}, gaps{};
+    proto::Status outcome{proto::Done{}};  // of the run: the recording is there in any case
+};
+
+proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>& phases, const proto::Json& params) {
+    auto server = PrivateServer::start(words.threads);
+    if (!server) return server.error();
+    print_note("server " + (*server)->endpoint());
+    auto connection = Connection::open((*server)->endpoint(), [&] { return (*server)->fate(); });
+    if (!connection) return connection.error();
+    auto loaded = load_scene(**connection, params);
+    if (!loaded) return loaded.error();
+    print_note(loaded_line(*loaded));
+
+    const fs::path folder = words.out.empty() ? fs::path(loaded->scene) : fs::path(words.out);
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) return proto::Error{proto::ErrorCode::file_error, error.message(), folder.string(), ""};
+    RecordOptions options;
+    options.file = folder / (loaded->scene + ".mcap");
+    options.overwrite = words.overwrite;
+    if (words.fps) options.interval = 1.0 / *words.fps;
+    if (!words.fields.empty()) {
+        auto fields = parse_fields(words.fields);
+        if (!fields) return fields.error();
+        options.fields = *fields;
+    }
+    auto recorder = Recorder::open(**connection, options);
+    if (!recorder) return recorder.error();
+    proto::Status outcome = run_phases(**connection, **recorder, phases, loaded->scene);
+    outcome = end_recording(**recorder, outcome);
+    return Recorded{options.file, (*recorder)->frames(), (*recorder)->gaps(), outcome};
+}
+
+proto::Status run(const Globals& globals, const LocalRun& words) {
+    auto phases = make_phases(words);
+    if (!phases) return phases.error();
+    auto params = scene_load_params(words.scene, words.assignments);
+    if (!params) return params.error();
+    auto recorded = simulate(words, *phases, *params);
+    if (!recorded) return recorded.error();
+
+    const std::string summary = recording_summary(recorded->frames, recorded->gaps);
+    if (globals.json)
+        print_json({{"file", recorded->file.string()}, {"frames", recorded->frames}, {"gaps", recorded->gaps}});
+    else
+        print_line(summary + ", " + recorded->file.string());
+    if (words.formats.empty() || recorded->frames == 0 || is_interrupted()) return recorded->outcome;
+    ConvertOptions options;
+    options.recording = recorded->file;
+    options.folder = recorded->file.parent_path();
+    options.formats = split(words.formats, ',');
+    auto conversion = convert(options);
+    if (!conversion) return recorded->outcome ? proto::Status(conversion.error()) : recorded->outcome;
+    if (!globals.json)
+        for (const std::string& line : conversion->summaries) print_line(line);
+    return recorded->outcome;
+}
+
+}  // namespace
+
+void add_local_run_command(CLI::App& app, CommandLine& line) {
+    auto words = std::make_shared<LocalRun>();
+    CLI::App* runner =
+        add_command(app, line, "run", "simulate a scene here: private server, recording, files to look at",
+                    [words](const Globals& globals) { return run(globals, *words); });
+    runner->add_option("SCENE", words->scene, "a scene's name (headrace scenes) or a file.json")->required();
+    CLI::Option* until = runner->add_option(
+        "--until", words->until, "end: 2 (t = 2 s), +2 (2 s after the last --remove), step=400, at-rest (default)");
+    CLI::Option* steps = runner->add_option("--steps", words->steps, "end after so many steps")
+                             ->check(CLI::PositiveNumber)
+                             ->excludes(until);
+    runner->add_flag("--at-rest", words->at_rest, "end when the fluid is at rest")->excludes(until)->excludes(steps);
+    runner
+        ->add_option("--remove", words->removals,
+                     "an object that leaves, NAME@at-rest or NAME@TIME; can be repeated, in order")
+        ->allow_extra_args(false);
+    runner->add_option("--set", words->assignments, "parameter of the model, name=value; can be repeated")
+        ->allow_extra_args(false);
+    runner->add_option("--out", words->out, "folder of the results; default: the scene's name");
+    runner->add_option("--fps", words->fps, "frames per simulated second; default: the scene's")
+        ->check(CLI::PositiveNumber);
+    runner->add_option("--fields", words->fields, "such as id,position,velocity; default: the scene's");
+    runner->add_option("--format", words->formats, "also write vtp, csv, png; several with commas");
+    runner->add_option("--threads", words->threads, "of the solver; default: as many as the machine has")
+        ->check(CLI::PositiveNumber);
+    runner->add_flag("--overwrite", words->overwrite, "replace an earlier recording");
+}
+
+}  // namespace headrace::client

@@ -1,0 +1,32 @@
+// A recording into other programs' formats.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/writers/writer.h"
+#include "proto/result.h"
+
+namespace headrace::client {
+
+struct ConvertOptions {
+    std::filesystem::path recording;
+    std::filesystem::path folder;
+    std::vector<std::string> formats;
+    PictureOptions picture;
+    std::size_t every{1};            // each so many-th frame of those in the range
+    std::optional<double> from, to;  // [s] simulated, both included
+};
+
+struct Conversion {
+    std::size_t frames{};
+    std::vector<std::string> summaries;  // one per format, in the order asked for
+};
+
+// On Ctrl-C the frames so far are converted and the files complete.
+proto::Result<Conversion> convert(const ConvertOptions& options);
+
+}  // namespace headrace::client

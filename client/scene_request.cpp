@@ -1,0 +1,58 @@
+#include "client/scene_request.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "client/arguments.h"
+#include "client/text.h"
+
+namespace headrace::client {
+
+namespace {
+
+// The document as it stands: the server checks it and names paths inside it.
+proto::Result<proto::Json> read_document(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    if (!in || !(text << in.rdbuf()))
+        return proto::Error{proto::ErrorCode::file_error, std::strerror(errno), file,
+                            "headrace scenes lists the scenes that need no file"};
+    auto document = proto::parse_json(text.str());
+    if (document) return document;
+    proto::Error error = document.error();
+    error.path = error.path.empty() ? file : file + ": " + error.path;
+    return error;
+}
+
+}  // namespace
+
+proto::Result<proto::Json> scene_load_params(const std::string& scene, const std::vector<std::string>& assignments) {
+    auto parameters = parse_assignments(assignments);
+    if (!parameters) return parameters.error();
+    proto::Json params = proto::to_json(proto::SceneLoad{scene, *std::move(parameters)});
+    std::error_code ignored;
+    if (scene.ends_with(".json") || std::filesystem::is_regular_file(scene, ignored)) {
+        auto document = read_document(scene);
+        if (!document) return document.error();
+        params["scene"] = *std::move(document);
+    }
+    return params;
+}
+
+proto::Result<proto::SceneLoadReply> load_scene(Connection& connection, const proto::Json& params) {
+    auto result = connection.request("scene.load", params, Patience::while_alive);
+    if (!result) return result.error();
+    return proto::from_json<proto::SceneLoadReply>(*result, "result");
+}
+
+std::string loaded_line(const proto::SceneLoadReply& reply) {
+    std::string line = reply.scene + ": " + plural(reply.particles, "particle") + ", dt " + number(reply.time_step) +
+                       " s, " + state_text(reply.state);
+    for (std::size_t k = 0; k < reply.objects.size(); ++k) line += (k == 0 ? "; objects: " : ", ") + reply.objects[k];
+    return line;
+}
+
+}  // namespace headrace::client

@@ -1,0 +1,124 @@
+#include "client/writers/annotations.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "client/writers/cairo_canvas.h"
+#include "client/writers/palette.h"
+
+namespace headrace::client {
+
+namespace {
+
+constexpr Rgb kInk{0x22, 0x2B, 0x35};
+
+void select_font(const Canvas& canvas, double size, Weight weight) {
+    cairo_select_font_face(canvas(), "sans", CAIRO_FONT_SLANT_NORMAL,
+                           weight == Weight::bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(canvas(), size);
+}
+
+void show_text(const Canvas& canvas, double x, double y, const std::string& text) {
+    canvas.set_color(kInk);
+    cairo_move_to(canvas(), x, y);
+    cairo_show_text(canvas(), text.c_str());
+}
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+// "m/s^2" -> "m/s²"
+std::string typeset_unit(std::string_view unit) {
+    std::string text;
+    bool is_raised = false;
+    for (const char letter : unit) {
+        if (is_raised && letter == '2')
+            text += "²";
+        else if (is_raised && letter == '3')
+            text += "³";
+        else if (letter != '^')
+            text += letter;
+        is_raised = letter == '^';
+    }
+    return text;
+}
+
+}  // namespace
+
+BarBox bar_box(int picture_height, int right_edge, double scale) {
+    const int width = static_cast<int>(std::lround(18 * scale));
+    const int labels = static_cast<int>(std::lround(92 * scale));
+    return {right_edge - width - labels, static_cast<int>(0.24 * picture_height), width,
+            static_cast<int>(0.58 * picture_height)};
+}
+
+void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, double scale) {
+    for (int y = 0; y < box.height; ++y) {
+        const double t = box.height > 1 ? 1 - static_cast<double>(y) / (box.height - 1) : 0;
+        std::uint32_t* row = image.row(box.top + y) + box.left;
+        std::fill_n(row, box.width, Image::packed(palette_color(t)));
+    }
+
+    const Canvas canvas(image);
+    const double right = box.left + box.width;
+    canvas.set_color(kInk);
+    cairo_set_line_width(canvas(), 1);
+    // The frame runs outside the colours.
+    cairo_rectangle(canvas(), box.left - 0.5, box.top - 0.5, box.width + 1, box.height + 1);
+    cairo_stroke(canvas());
+
+    select_font(canvas, 14 * scale, Weight::normal);
+    for (const double value : tick_values(colors.min, colors.max, 6)) {
+        const double t = (value - colors.min) / (colors.max - colors.min);
+        const double y = box.top + box.height - 0.5 - t * (box.height - 1);
+        canvas.set_color(kInk);
+        cairo_move_to(canvas(), right + 1, y);
+        cairo_line_to(canvas(), right + 1 + 5 * scale, y);
+        cairo_stroke(canvas());
+        show_text(canvas, right + 10 * scale, y + 5 * scale, short_number(value));
+    }
+
+    const proto::FieldInfo& info = proto::field_info(colors.field);
+    select_font(canvas, 15 * scale, Weight::bold);
+    show_text(canvas, box.left, box.top - 32 * scale, std::string(info.name));
+    select_font(canvas, 14 * scale, Weight::normal);
+    std::string legend(info.symbol);
+    if (info.is_vector) legend = "|" + legend + "|";  // colours stand for the magnitude
+    if (info.unit != "1") legend.append("  [").append(typeset_unit(info.unit)).append("]");
+    show_text(canvas, box.left, box.top - 13 * scale, legend);
+}
+
+void draw_text(Image& image, double x, double y, double size, const std::string& text, Weight weight) {
+    const Canvas canvas(image);
+    select_font(canvas, size, weight);
+    show_text(canvas, x, y, text);
+}
+
+std::vector<double> tick_values(double min, double max, int wanted) {
+    const double raw = (max - min) / wanted;
+    const double power = std::pow(10.0, std::floor(std::log10(raw)));
+    double step = 10 * power;
+    for (const double nice : {5.0, 2.0, 1.0})
+        if (nice * power >= raw * (1 - 1e-9)) step = nice * power;
+    std::vector<double> ticks;
+    const double slack = 1e-9 * (max - min);
+    for (double k = std::ceil((min - slack) / step); k * step <= max + slack; ++k)
+        ticks.push_back(k * step + 0.0);  // + 0.0: never "-0"
+    return ticks;
+}
+
+std::string grouped(std::uint64_t count) {
+    const std::string digits = std::to_string(count);
+    std::string text;
+    for (std::size_t k = 0; k < digits.size(); ++k) {
+        if (k > 0 && (digits.size() - k) % 3 == 0) text += ',';
+        text += digits[k];
+    }
+    return text;
+}
+
+}  // namespace headrace::client

@@ -1,0 +1,14 @@
+// The makers behind make_writer, one per format.
+#pragma once
+
+#include <memory>
+
+#include "client/writers/writer.h"
+
+namespace headrace::client {
+
+std::unique_ptr<Writer> make_vtp_writer(const WriterOptions& options);
+std::unique_ptr<Writer> make_csv_writer(const WriterOptions& options);
+std::unique_ptr<Writer> make_picture_writer(const WriterOptions& options);
+
+}  // namespace headrace::client

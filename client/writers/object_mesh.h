@@ -1,0 +1,15 @@
+// Collision objects as polygons, for programs that show meshes: boxes as 6 quadrilaterals, spheres as rings of them; in
+// 2D closed outlines.
+#pragma once
+
+#include <vector>
+
+#include "client/writers/vtp_file.h"
+#include "proto/scene_desc.h"
+
+namespace headrace::client {
+
+// Cell data: `object` (row in `objects`) and `is_container` (1 or 0); field data `names`.
+VtpPiece make_object_mesh(const std::vector<proto::ObjectDesc>& objects, int dimensions);
+
+}  // namespace headrace::client

@@ -1,0 +1,39 @@
+// Just enough vector algebra for drawing.
+#pragma once
+
+#include <cmath>
+
+#include "proto/scene_desc.h"
+
+namespace headrace::client {
+
+using proto::Vec3;
+
+inline Vec3 operator+(const Vec3& a, const Vec3& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vec3 operator-(const Vec3& a, const Vec3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Vec3 operator*(double s, const Vec3& a) {
+    return {s * a[0], s * a[1], s * a[2]};
+}
+inline double dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline double length(const Vec3& a) {
+    return std::sqrt(dot(a, a));
+}
+inline Vec3 normalized(const Vec3& a) {
+    return (1 / length(a)) * a;
+}
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Corner k of a box, 0 <= k < 8: bit 0 takes x, bit 1 y, bit 2 z from max.
+inline Vec3 box_corner(const proto::BoxDesc& box, int k) {
+    return {(k & 1 ? box.max : box.min)[0], (k & 2 ? box.max : box.min)[1], (k & 4 ? box.max : box.min)[2]};
+}
+
+}  // namespace headrace::client

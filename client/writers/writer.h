@@ -1,0 +1,53 @@
+// Other programs' file formats, one per file behind one small interface.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "proto/frame.h"
+#include "proto/result.h"
+#include "proto/scene_desc.h"
+
+namespace headrace::client {
+
+// How pictures look; other formats ignore it.
+struct PictureOptions {
+    proto::Field color_field{proto::Field::velocity};  // vectors: their magnitude
+    // Ends of the colour scale, in the field's unit. Absent: guessed once from the scene, the same for all frames.
+    std::optional<double> color_min, color_max;
+    int width{1280}, height{720};  // [px] of each frame's picture
+    int sheet_frames{12};          // pictures on the contact sheet; 0: no sheet
+    bool every_frame{true};        // false: the contact sheet only
+};
+
+struct WriterOptions {
+    std::filesystem::path folder;  // created when missing
+    std::string stem;              // files are <stem>_000123.vtp and the like
+    proto::SceneDesc scene;
+    std::size_t expected_frames{0};  // 0: not known; spreads the contact sheet
+    PictureOptions picture;
+};
+
+// Owner: one thread. Frames come in ascending time. After an error the writer only wants to be destroyed; files of the
+// frames before it are whole.
+class Writer {
+  public:
+    virtual ~Writer() = default;
+
+    // `objects`: those of this frame, after events and commands. The frame's bytes are not kept.
+    virtual proto::Status write(const proto::FrameView& frame, const std::vector<proto::ObjectDesc>& objects) = 0;
+    virtual proto::Status finish() = 0;       // index files; call once, after the last frame
+    virtual std::string summary() const = 0;  // for a person: what was written and how to open it
+};
+
+std::vector<std::string> writer_formats();  // "vtp", "csv", "png"
+
+// Errors: invalid_params for an unknown format or unusable options, file_error when the folder cannot be made.
+proto::Result<std::unique_ptr<Writer>> make_writer(std::string_view format, const WriterOptions& options);
+
+}  // namespace headrace::client

@@ -1,0 +1,137 @@
+// The scene document, member by member.
+#include <set>
+
+#include "proto/json_describe.h"
+#include "proto/version.h"
+
+namespace headrace::proto {
+
+namespace {
+
+constexpr std::size_t kMaxSceneItems = 1000;  // fluids, objects or events of a scene
+constexpr std::size_t kMaxParameters = 256;
+
+constexpr std::string_view kAxes[]{"x", "y", "z"};
+
+// Two corners of a volume. Where the dimensions are not known (an object added later), z may be flat.
+void describe_corners(Visitor& v, Vec3& min, Vec3& max) {
+    v.required("min", min, {.meaning = "lower corner", .unit = "m"});
+    v.required("max", max, {.meaning = "upper corner, above the lower one along every axis", .unit = "m"});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const bool may_be_flat = axis == 2 && v.dimensions != 3;
+        if (may_be_flat ? min[axis] <= max[axis] : min[axis] < max[axis]) continue;
+        v.refuse("max[" + std::to_string(axis) + "]", "must be greater than min along " + std::string(kAxes[axis]),
+                 "min is the lower corner, max the upper one [m]");
+    }
+}
+
+template <class Named>
+void refuse_double_names(Visitor& v, const std::vector<Named>& items, const std::string& list) {
+    std::set<std::string_view> seen;
+    for (std::size_t k = 0; k < items.size(); ++k)
+        if (!seen.insert(items[k].name).second)
+            v.refuse(list + "[" + std::to_string(k) + "].name", "is used twice: \"" + items[k].name + "\"",
+                     "give each its own name");
+}
+
+}  // namespace
+
+void describe(Visitor& v, BoxDesc& box) {
+    describe_corners(v, box.min, box.max);
+}
+
+void describe(Visitor& v, SphereDesc& sphere) {
+    v.required("center", sphere.center, {.meaning = "centre", .unit = "m"});
+    v.required("radius", sphere.radius, {.meaning = "radius", .unit = "m", .range = kPositive});
+}
+
+void describe(Visitor& v, FluidDesc& fluid) {
+    v.required("name", fluid.name, {.meaning = "name of the fluid volume", .text = Text::name});
+    v.required("shape", fluid.shape, {.meaning = "volume that is filled with particles"});
+    v.optional("velocity", fluid.velocity, {.meaning = "uniform velocity at the start", .unit = "m/s"});
+}
+
+void describe(Visitor& v, ObjectDesc& object) {
+    v.required("name", object.name, {.meaning = "name of the collision object", .text = Text::name});
+    v.optional("role", object.role, {.meaning = "a container keeps the fluid inside, an obstacle keeps it out"});
+    v.required("shape", object.shape, {.meaning = "its surface"});
+}
+
+void describe(Visitor& v, DomainDesc& domain) {
+    describe_corners(v, domain.min, domain.max);
+}
+
+void describe(Visitor& v, AtRestDesc& at_rest) {
+    v.optional("speed_factor", at_rest.speed_factor,
+               {.meaning = "a particle is slow below this times sqrt(|g| H), H the fluid's height along gravity",
+                .unit = "1",
+                .range = kPositive});
+    v.optional("share", at_rest.share,
+               {.meaning = "share of particles that must be slow", .unit = "1", .range = {0.0, 1.0, true}});
+    v.optional("duration", at_rest.duration,
+               {.meaning = "simulated time for which it must hold", .unit = "s", .range = kNotNegative});
+    v.optional("timeout", at_rest.timeout,
+               {.meaning = "simulated time after which waiting gives up", .unit = "s", .range = kPositive});
+}
+
+void describe(Visitor& v, RemoveObjectAction& action) {
+    v.required("name", action.name, {.meaning = "object to remove", .text = Text::name});
+}
+
+void describe(Visitor& v, MoveObjectAction& action) {
+    v.required("name", action.name, {.meaning = "object to move", .text = Text::name});
+    v.required("to", action.to, {.meaning = "new centre of the shape's bounding box", .unit = "m"});
+}
+
+void describe(Visitor& v, SetParametersAction& action) {
+    v.required("parameters", action.parameters,
+               {.meaning = "model parameters to set", .min_items = 1, .max_items = kMaxParameters});
+}
+
+void describe(Visitor&, PauseAction&) {}
+
+void describe(Visitor& v, SceneEventDesc& event) {
+    std::optional<bool> at_rest = event.at_rest ? std::optional(true) : std::nullopt;
+    v.optional("at_rest", at_rest, {.meaning = "fires when the fluid comes to rest", .only_true = true});
+    event.at_rest = at_rest.value_or(false);
+    v.optional("time", event.time, {.meaning = "fires at this simulated time", .unit = "s", .range = kNotNegative});
+    v.optional("step", event.step, {.meaning = "fires before this step", .unit = "1", .range = kNotNegative});
+    v.required("action", event.action, {.meaning = "what happens"});
+    v.exactly_one({{"at_rest", event.at_rest}, {"time", event.time.has_value()}, {"step", event.step.has_value()}});
+}
+
+void describe(Visitor& v, OutputDesc& output) {
+    v.optional("interval", output.interval,
+               {.meaning = "simulated time between frames of a recording", .unit = "s", .range = kPositive});
+    v.optional("fields", output.fields, {.meaning = "particle fields of a recording", .min_items = 1});
+}
+
+void describe(Visitor& v, SceneDesc& scene) {
+    int version = kSceneVersion;
+    v.tolerate_text("$schema");
+    v.required("headrace_scene", version,
+               {.meaning = "version of the scene document", .range = between(kSceneVersion, kSceneVersion)});
+    v.required("name", scene.name, {.meaning = "name of the scene", .text = Text::name});
+    v.optional("description", scene.description,
+               {.meaning = "what the scene shows and where it is from", .max_length = 4096});
+    v.optional("dimensions", scene.dimensions, {.meaning = "2 or 3", .range = between(2, 3)});
+    v.dimensions = scene.dimensions;
+    v.optional("model", scene.model, {.meaning = "simulation model", .text = Text::name});
+    v.optional("parameters", scene.parameters,
+               {.meaning = "overrides of the model's defaults", .max_items = kMaxParameters});
+    v.required("spacing", scene.spacing,
+               {.meaning = "initial spacing of the particles", .unit = "m", .range = kPositive});
+    v.required("domain", scene.domain, {.meaning = "a particle outside faults the run"});
+    v.required("fluids", scene.fluids,
+               {.meaning = "volumes of fluid at the start", .min_items = 1, .max_items = kMaxSceneItems});
+    v.optional("objects", scene.objects,
+               {.meaning = "collision objects, tested in this order", .max_items = kMaxSceneItems});
+    v.optional("events", scene.events, {.meaning = "what happens by itself", .max_items = kMaxSceneItems});
+    v.optional("at_rest", scene.at_rest, {.meaning = "when the fluid counts as being at rest"});
+    v.optional("output", scene.output, {.meaning = "what recordings hold unless they say otherwise"});
+    v.dimensions = 0;
+    refuse_double_names(v, scene.fluids, "fluids");
+    refuse_double_names(v, scene.objects, "objects");
+}
+
+}  // namespace headrace::proto

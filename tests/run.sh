@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Builds everything and runs the tests: the one command behind "does it still hold?". Ends with ctest's own summary.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=client/install.sh
+. "$root/client/install.sh"
+
+usage() {
+    cat <<'TEXT'
+usage: tests/run.sh [--full] [--preset NAME] [--label LABEL] [ctest arguments]
+
+Installs missing packages, builds, and runs the tests with ctest. Tests whose tools are not installed are reported as
+skipped.
+
+  --full          installs those tools too (VTK, jsonschema, clang-format, Node.js and its packages); then a skipped
+                  test is a failure
+  --preset NAME   release (default), debug, asan or tsan: see CMakePresets.json
+  --label LABEL   only tests with this label: unit, stability, protocol, validation, cli, script, demo
+  --help          this text
+
+  tests/run.sh --label unit -R Kernel     further arguments go to ctest
+
+Environment: HEADRACE_NO_INSTALL set: installs no packages. PYTHON: the interpreter (default /usr/bin/python3, where the
+packages are installed for).
+TEXT
+}
+
+full=no
+preset=release
+ctest_arguments=()
+while [ $# -gt 0 ]; do
+    case "$1" in
+        --full) full=yes ;;
+        --preset | --label)
+            [ $# -ge 2 ] || die "$1 needs a value" "see tests/run.sh --help"
+            if [ "$1" = --preset ]; then preset=$2; else ctest_arguments+=(-L "^$2\$"); fi
+            shift
+            ;;
+        --help | -h)
+            usage
+            exit 0
+            ;;
+        *) ctest_arguments+=("$1") ;;
+    esac
+    shift
+done
+case "$preset" in
+    release) build="$root/build" ;;
+    debug | asan | tsan) build="$root/build-$preset" ;;
+    *) die "no preset '$preset'" "release, debug, asan or tsan" ;;
+esac
+
+packages=("${headrace_build_packages[@]}" catch2 python3 python3-zmq python3-numpy)
+[ $full = no ] || packages+=(python3-vtk9 python3-jsonschema clang-format nodejs=node npm=npm)
+install_packages "${packages[@]}"
+
+# The MCAP reader of another project judges our recordings.
+mcap="$root/tests/support/mcap"
+if [ $full = yes ] && [ -f "$mcap/package-lock.json" ] &&
+    ! cmp -s "$mcap/package-lock.json" "$mcap/node_modules/.installed-lock.json"; then
+    say "installing the Node.js packages of tests/support/mcap"
+    (cd "$mcap" && npm ci --no-audit --no-fund --loglevel=error) ||
+        die "npm ci failed in $mcap" "Its message is above. Is there a network?"
+    cp "$mcap/package-lock.json" "$mcap/node_modules/.installed-lock.json"
+fi
+
+say "building everything in $build"
+cd "$root"
+launcher=()
+if command -v ccache >/dev/null 2>&1; then
+    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    export CCACHE_BASEDIR="$root"
+fi
+configure_build "$build" --preset "$preset" "${launcher[@]}" -DHEADRACE_TESTS=ON -DHEADRACE_BENCH=ON \
+    -DHEADRACE_PYTHON="${PYTHON:-/usr/bin/python3}"
+cmake --build "$build" -j "$(build_jobs)"
+
+say "running the tests ($preset)"
+# Two tests run at a time, each with a team of threads: threads that wait must sleep, or they starve the others.
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
+log="$build/ctest.log"
+status=0
+ctest --preset "$preset" -j2 --no-tests=error --output-on-failure "${ctest_arguments[@]}" 2>&1 | tee "$log" || status=$?
+if [ $full = yes ] && [ $status -eq 0 ] && grep -q '\*\*\*Skipped' "$log"; then
+    echo "run.sh: tests were skipped, and --full allows none" >&2
+    status=1
+fi
+exit $status

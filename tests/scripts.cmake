@@ -1,0 +1,63 @@
+# Tests that are scripts: the programs from outside, other projects' readers, and the order of the house.
+# A script that lacks a tool it judges with exits 77, which ctest reports as skipped.
+set(HEADRACE_PYTHON /usr/bin/python3 CACHE FILEPATH "Interpreter for script tests; has the Debian python3-* packages")
+
+# headrace_script_test(NAME label script arguments... [NEEDS Python modules with commas] [FIXTURE name])
+function(headrace_script_test name label script)
+  cmake_parse_arguments(arg "" "NEEDS;FIXTURE" "" ${ARGN})
+  set(script ${CMAKE_CURRENT_SOURCE_DIR}/${script})
+  if(arg_NEEDS)
+    set(command bash ${CMAKE_CURRENT_SOURCE_DIR}/support/needs.sh ${HEADRACE_PYTHON} ${arg_NEEDS} ${script})
+  elseif(script MATCHES "\\.py$")
+    set(command ${HEADRACE_PYTHON} ${script})
+  else()
+    set(command bash ${script})
+  endif()
+  add_test(NAME "${name}" COMMAND ${command} ${arg_UNPARSED_ARGUMENTS} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties("${name}" PROPERTIES LABELS ${label} SKIP_RETURN_CODE 77 TIMEOUT 600)
+  if(arg_FIXTURE)
+    set_tests_properties("${name}" PROPERTIES FIXTURES_REQUIRED ${arg_FIXTURE})
+  endif()
+endfunction()
+
+set(root ${PROJECT_SOURCE_DIR})
+set(results ${PROJECT_BINARY_DIR}/test_results)
+file(MAKE_DIRECTORY ${results})
+
+# The order of the house.
+headrace_script_test("house: includes follow the layers" script support/check_layers.py ${root})
+headrace_script_test("house: sources are in order" script support/check_sources.py ${root})
+headrace_script_test("house: each header compiles alone" script support/check_headers.sh ${CMAKE_CXX_COMPILER} ${root})
+headrace_script_test("house: sources are formatted" script support/check_format.sh ${root})
+headrace_script_test("house: only missing packages are installed" script support/check_install.sh ${root})
+
+# The protocol's documents, judged by others' tools.
+headrace_script_test("schemas: examples and presets are valid" script support/check_schemas.py NEEDS jsonschema)
+headrace_script_test("protocol: the reference is up to date" script support/protocol_reference.py ${root})
+
+# Recordings and frames, read by others. Frame 7 of the sample recording also comes as a file of its own.
+add_executable(write_sample_recording support/write_sample_recording.cpp)
+target_link_libraries(write_sample_recording PRIVATE headrace_recording)
+foreach(compression none zstd)
+  add_test(NAME "mcap: samples are written, ${compression}"
+           COMMAND write_sample_recording ${results}/${compression}.mcap ${compression} ${results}/frame_${compression}.bin)
+  set_tests_properties("mcap: samples are written, ${compression}" PROPERTIES LABELS script FIXTURES_SETUP samples)
+endforeach()
+headrace_script_test("mcap: the reference implementation reads our recordings" script support/check_mcap.sh ${root}
+                     ${results}/none.mcap ${results}/zstd.mcap FIXTURE samples)
+headrace_script_test("frame: ten lines of NumPy read it" script support/check_parse_frame.py ${results}/frame_none.bin
+                     NEEDS numpy FIXTURE samples)
+
+# The client as a user drives it.
+file(GLOB cli_scripts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS cli/*.sh)
+foreach(script IN LISTS cli_scripts)
+  get_filename_component(name ${script} NAME_WE)
+  headrace_script_test("cli: ${name}" cli ${script} $<TARGET_FILE:headraced> $<TARGET_FILE:headrace> ${root})
+endforeach()
+
+# The main job, with the programs of this build.
+headrace_script_test("demo: dam break from load to pictures" demo support/check_demo.sh ${PROJECT_BINARY_DIR} ${root}
+                     ${results}/demo)
+set_tests_properties("demo: dam break from load to pictures" PROPERTIES FIXTURES_SETUP demo)
+headrace_script_test("vtp: VTK reads the demo's files" demo support/check_vtp.py ${results}/demo/dam_break/dam_break.pvd
+                     --frames 301 --points 3000 FIXTURE demo)

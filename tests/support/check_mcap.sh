@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# The reference implementation of MCAP reads our recordings: whole ones by index and as a stream, and one that was cut
+# off as a stream. Arguments: repository root, recordings.
+set -euo pipefail
+reader=$1/tests/support/mcap
+shift
+command -v node >/dev/null 2>&1 || { echo "node is not installed" >&2; exit 77; }
+[ -d "$reader/node_modules/@mcap/core" ] || { echo "run npm ci in $reader" >&2; exit 77; }
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+for recording in "$@"; do
+    found=$(node "$reader/read_mcap.mjs" "$recording")
+    echo "$found"
+    grep -q '"frames":20,' <<<"$found" || { echo "$recording: not 20 frames" >&2; exit 1; }
+
+    # What a killed server leaves: the last bytes are missing, in the middle of a record.
+    head -c "$(($(stat -c %s "$recording") * 2 / 3))" "$recording" >"$scratch/cut.mcap"
+    found=$(node "$reader/read_mcap.mjs" "$scratch/cut.mcap" --cut)
+    grep -qE '"frames":1[0-9],' <<<"$found" || { echo "$recording, cut: $found" >&2; exit 1; }
+done
