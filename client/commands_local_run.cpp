@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct LocalRun {
-    std::string scene, until, out, formats, fields;
+    std::string scene, until, out, formats{"vtp"}, fields;
     std::vector<std::string> assignments, removals;
     std::optional<std::int64_t> steps;
     std::optional<double> fps;
@@ -158,7 +158,8 @@ void add_local_run_command(CLI::App& app, CommandLine& line) {
     runner->add_option("--fps", words->fps, "frames per simulated second; default: the scene's")
         ->check(CLI::PositiveNumber);
     runner->add_option("--fields", words->fields, "such as id,position,velocity; default: the scene's");
-    runner->add_option("--format", words->formats, "also write vtp, csv, png; several with commas");
+    runner->add_option("--format", words->formats, "files to look at: vtp, csv, png; several with commas; \"\": none")
+        ->capture_default_str();
     runner->add_option("--threads", words->threads, "of the solver; default: as many as the machine has")
         ->check(CLI::PositiveNumber);
     runner->add_flag("--overwrite", words->overwrite, "replace an earlier recording");

@@ -1,6 +1,7 @@
 #include "client/jobs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "client/call.h"
@@ -34,8 +35,11 @@ std::string run_detail(const proto::SimStatusReply& status) {
         "t " + number(status.time) + " s, step " + with_thousands(static_cast<std::int64_t>(status.step));
     if (status.job && status.job->state == proto::JobState::paused) return text + ", paused";
     if (status.stalled) return text + ", waiting for a reader";
-    if (status.steps_per_second > 0)
-        text += ", " + with_thousands(static_cast<std::int64_t>(status.steps_per_second)) + " steps/s";
+    const double rate = status.steps_per_second;
+    if (rate >= 10)
+        text += ", " + with_thousands(static_cast<std::int64_t>(rate)) + " steps/s";
+    else if (rate > 0)
+        text += ", " + number(std::round(rate * 10) / 10) + " steps/s";
     return text;
 }
 

@@ -59,10 +59,10 @@ struct DomainDesc {
 // When the fluid counts as being at rest.
 struct AtRestDesc {
     // A particle's speed counts as slow below factor * sqrt(|g| H), H the fluid's height along gravity at load.
-    double speed_factor{0.01};
+    double speed_factor{0.05};
     // Share of particles that must be slow, 0 < share <= 1. 1: the largest speed decides.
-    double share{1.0};
-    double duration{0.1};  // [s] simulated time for which it must hold
+    double share{0.95};
+    double duration{0.5};  // [s] simulated time for which it must hold: longer than a turning point of a slosh
     double timeout{30.0};  // [s] simulated time after which waiting gives up and says so
 };
 

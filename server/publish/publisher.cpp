@@ -115,6 +115,7 @@ struct Publisher::Impl {
         read_event_subscriptions();
         data_socket.read_requests();
         next_stall_check = lossless.check_stalls();
+        refresh_counts();
         publish_events();
         publish_status();
     }
@@ -172,10 +173,24 @@ struct Publisher::Impl {
                 recorder.write_command(line->json, line->time);
                 continue;
             }
-            deliver_captures();
-            outbox.put(errand.token, std::visit([&](const auto& request) { return handle(request); },
-                                                std::get<PublisherRequest>(errand.what)));
+            auto outcome = carry_out(std::get<PublisherRequest>(errand.what));
+            refresh_counts();  // who reads the status after the reply sees the change
+            outbox.put(errand.token, std::move(outcome));
         }
+    }
+
+    proto::Result<proto::Reply> carry_out(const PublisherRequest& wanted) {
+        try {
+            // What happened before the request comes before its effect: a recording that ends here has it all.
+            deliver_captures();
+            publish_events();
+            return std::visit([&](const auto& request) { return handle(request); }, wanted);
+        } catch (const std::exception& problem) {
+            return proto::Error{proto::ErrorCode::internal_error, problem.what(), "", ""};
+        }
+    }
+
+    void refresh_counts() {
         counts = Counts{static_cast<std::uint32_t>(live.size() + lossless.size()),
                         static_cast<std::uint32_t>(recorder.size())};
     }

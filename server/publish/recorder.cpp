@@ -39,6 +39,8 @@ proto::Result<fs::path> Recorder::resolve(const std::string& file) const {
     if (error) return refuse("the path cannot be resolved");
     const auto [end, unused] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
     if (end != root.end()) return refuse("the path leaves the data folder");
+    // A link that leads nowhere is left unresolved above, and would be written through.
+    if (fs::is_symlink(fs::symlink_status(path, error))) return refuse("the path is a link that leads nowhere");
     if (!fs::is_directory(path.parent_path(), error))
         return Error{ErrorCode::file_error, "no folder " + relative.parent_path().string(), "params.file",
                      "make the folder on the server's machine first"};

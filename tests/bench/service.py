@@ -36,7 +36,6 @@ class Server:
         self.ready = json.loads(line)
         self.context = zmq.Context()
         self.control = Peer(self.context, self.ready["control"])
-        self.data = Peer(self.context, self.ready["data"])
         self.frames_endpoint = self.ready["frames"]
 
     def __enter__(self):
@@ -46,7 +45,6 @@ class Server:
         self.process.terminate()
         self.process.wait(timeout=60)
         self.control.socket.close(0)
-        self.data.socket.close(0)
         self.context.term()
         self.folder.cleanup()
 
@@ -159,7 +157,7 @@ def recording(server, options):
 
 def live(server, options):
     particles = load(server, options.preset, options.particles or 1e5, options.warmup)
-    stream = server.data.call("stream.open", mode="live", rate=options.rate)["stream"]
+    stream = server.control.call("stream.open", mode="live", rate=options.rate)["stream"]
     alone, watched, frames, size = [], [], 0, 0
     for _ in range(options.repeat):
         alone.append(timed_steps(server, options.steps))

@@ -9,7 +9,7 @@ start_server
     fail "the ready line is: $ready_line"
 cd "$work" || exit 1
 
-expect 0 'dam_break: 3,000 particles, dt 0.01 s, idle; objects: tank, panel' "$headrace" load dam_break
+expect 0 "dam_break: 3,000 particles, dt $number s, idle; objects: tank, panel" "$headrace" load dam_break
 expect_result 0 "at rest: step $number, t $number s" "$headrace" resume --until at-rest
 expect 4 'error object_not_found \(params.name\): did you mean "panel"\?' "$headrace" remove pannel
 expect 0 "removed before step $number" "$headrace" remove panel

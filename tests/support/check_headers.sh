@@ -5,6 +5,8 @@ compiler=$1
 cd "$2"
 headers=$(find proto server client tests -name '*.h' -not -path '*/node_modules/*' | sort)
 [ -n "$headers" ] || { echo "no headers found" >&2; exit 1; }
-echo "$headers" | xargs -P 2 -I {} "$compiler" -std=c++20 -I. -fopenmp -fsyntax-only -Wall -Wextra -Werror \
+libraries=$(pkg-config --cflags cairo)
+# shellcheck disable=SC2086  # several words
+echo "$headers" | xargs -P 2 -I {} "$compiler" -std=c++20 -I. $libraries -fopenmp -fsyntax-only -Wall -Wextra -Werror \
     -x c++ -include {} /dev/null
 echo "$(wc -l <<<"$headers") headers compile alone"

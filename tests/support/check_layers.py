@@ -15,7 +15,7 @@ ROOMS = [
     (r"client/", [r"client/", r"proto/"]),
     (r"server/solver/(forces|boundaries|integrator)/",
      [r"server/solver/(forces|boundaries|integrator)/", r"server/solver/[^/]+$"]),
-    (r"server/solver/models/", [r"server/solver/"]),
+    (r"server/solver/(models/|diagnostics\.)", [r"server/solver/"]),
     (r"server/solver/", [r"server/solver/[^/]+$"]),
     (r"server/scene/", [r"server/scene/", r"server/solver/", r"proto/"]),
     (EXCHANGE, [EXCHANGE, r"proto/"]),
@@ -24,7 +24,7 @@ ROOMS = [
                           r"server/solver/models/registry\.h", EXCHANGE, r"proto/"]),
     (r"server/main\.cpp", [r"server/", r"proto/"]),
     (r"server/[^/]+$", [r"server/(?!service/)", r"proto/"]),  # the simulation thread
-    (r"tests/", [r"tests/", r"client/", r"server/", r"proto/"]),
+    (r"tests/", [r""]),
 ]
 
 # Rooms without these libraries.

@@ -9,6 +9,11 @@ using namespace headrace::client;
 using namespace headrace::tests;
 using proto::Field;
 
+// Read by the leak sanitizer: fontconfig, below cairo's text, keeps what it has parsed until the process ends.
+extern "C" const char* __lsan_default_suppressions() {
+    return "leak:libfontconfig";
+}
+
 namespace {
 
 WriterOptions small_pictures(const TemporaryFolder& folder) {
