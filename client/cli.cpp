@@ -23,7 +23,7 @@ Exit status:
   1  anything else                         6  a file cannot be read or written
   2  wrong usage, or a bad request         7  the simulation has faulted
   3  no server answers, or it is foreign   8  timed out
-  4  there is no such thing              130  interrupted (Ctrl-C); files are complete)";
+  4  there is no such thing              130  interrupted (Ctrl-C); files are complete))";
 
 int exit_status(const proto::Status& outcome) {
     if (is_interrupted()) {

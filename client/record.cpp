@@ -1,6 +1,7 @@
 #include "client/record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>

@@ -1,8 +1,6 @@
 #include "client/record_run.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "client/call.h"
 #include "client/interrupt.h"

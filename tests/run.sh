@@ -70,7 +70,7 @@ cd "$root"
 launcher=()
 if command -v ccache >/dev/null 2>&1; then
     launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    export CCACHE_BASEDIR="$root"
+    unset CCACHE_BASEDIR # makes __FILE__ relative, by which tests find their data
 fi
 configure_build "$build" --preset "$preset" "${launcher[@]}" -DHEADRACE_TESTS=ON -DHEADRACE_BENCH=ON \
     -DHEADRACE_PYTHON="${PYTHON:-/usr/bin/python3}"

@@ -112,9 +112,7 @@ class VtpWriter final : public Writer {
         return write_collection();
     }
 
-    std::string summary() const override {
-        return std::to_string(frames_) + " frames; open " + collection_path().string() + " in ParaView";
-    }
+    std::string summary() const override { return "open " + collection_path().string() + " in ParaView"; }
 
   private:
     proto::Status write_objects(const std::vector<proto::ObjectDesc>& objects, int dimensions) {

@@ -26,6 +26,8 @@ constexpr std::string_view kTcp = "tcp://";
 constexpr std::string_view kIpc = "ipc://";
 constexpr std::size_t kMaxIpcPath = sizeof(sockaddr_un::sun_path) - 1;  // 107 characters on Linux
 constexpr int kLastPort = 65535;
+constexpr std::array<const char*, 4> kSocketEndings{"", ".events", ".frames", ".data"};
+constexpr const char* kLockEnding = ".lock";
 
 Error usage(std::string message, std::string hint) {
     return {ErrorCode::usage, std::move(message), "", std::move(hint)};
@@ -124,10 +126,10 @@ std::optional<int> port_of(std::string_view endpoint) {
 }
 
 Result<IpcLock> IpcLock::take(const Endpoints& endpoints) {
-    for (const char* ending : {"", ".events", ".frames", ".data"})
+    for (const char* ending : kSocketEndings)
         if (auto error = refuse_foreign_file(endpoints.ipc_path.string() + ending)) return *std::move(error);
 
-    const fs::path path = endpoints.ipc_path.string() + ".lock";
+    const fs::path path = endpoints.ipc_path.string() + kLockEnding;
     // The holder before us removes the file when it ends: a lock on a removed file is none, so look again.
     while (true) {
         const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -142,7 +144,7 @@ Result<IpcLock> IpcLock::take(const Endpoints& endpoints) {
         struct stat held {
         }, present{};
         if (::fstat(fd, &held) == 0 && ::lstat(path.c_str(), &present) == 0 && held.st_ino == present.st_ino)
-            return IpcLock(fd, path);
+            return IpcLock(fd, endpoints.ipc_path.string());
         ::close(fd);
     }
 }
@@ -151,7 +153,8 @@ IpcLock::IpcLock(IpcLock&& other) noexcept : fd_(std::exchange(other.fd_, -1)), 
 
 IpcLock::~IpcLock() {
     if (fd_ < 0) return;
-    ::unlink(path_.c_str());
+    for (const char* ending : kSocketEndings) ::unlink((path_ + ending).c_str());
+    ::unlink((path_ + kLockEnding).c_str());
     ::close(fd_);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "proto/result.h"
 
@@ -26,7 +27,7 @@ proto::Result<Endpoints> resolve_endpoints(std::string_view bind);
 std::optional<int> port_of(std::string_view endpoint);
 
 // Holds PATH.lock for the life of the object. ZeroMQ takes over the path of a live server without a word, so the lock
-// decides who may bind.
+// decides who may bind. Its end removes the socket files, which ZeroMQ leaves behind.
 class IpcLock {
   public:
     // Errors: usage, when another server holds the lock or something else than a socket lies at one of the paths.
@@ -36,9 +37,9 @@ class IpcLock {
     IpcLock& operator=(IpcLock&&) = delete;
 
   private:
-    IpcLock(int fd, std::filesystem::path path) : fd_(fd), path_(std::move(path)) {}
+    IpcLock(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
     int fd_;
-    std::filesystem::path path_;
+    std::string path_;  // of the control socket
 };
 
 }  // namespace headrace::server

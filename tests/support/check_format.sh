@@ -11,7 +11,11 @@ for name in clang-format-14 clang-format; do
 done
 [ -n "$formatter" ] || { echo "clang-format 14 is not installed" >&2; exit 77; }
 
-export formatter
-unformatted=$(find proto server client tests \( -name '*.h' -o -name '*.cpp' \) -not -path '*/node_modules/*' | sort |
-    xargs -n 1 sh -c '"$formatter" --dry-run --Werror "$0" 2>/dev/null || echo "$0"')
-[ -z "$unformatted" ] || { printf 'clang-format -i these:\n%s\n' "$unformatted"; exit 1; }
+status=0
+complaints=$(find proto server client tests \( -name '*.h' -o -name '*.cpp' \) -not -path '*/node_modules/*' -print0 |
+    sort -z | xargs -0 "$formatter" --dry-run --Werror 2>&1) || status=$?
+if [ $status -ne 0 ]; then
+    echo "clang-format -i these:"
+    sed -n 's/^\([^: ]*\):[0-9]*:[0-9]*: error.*/\1/p' <<<"$complaints" | uniq
+    exit 1
+fi

@@ -9,6 +9,7 @@
 // two one always moves off the wall.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
