@@ -80,8 +80,6 @@ headrace() { "$build/client/headrace" "$@"; }
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 say "starting headraced"
-# Waiting threads sleep instead of spinning: on a busy machine that is 86 s against 2 s until the water is at rest.
-export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
 exec 3< <(exec "$build/server/headraced" --bind 'tcp://127.0.0.1:*' --data "$out" --json)
 server_pid=$!
 IFS= read -r -t 60 ready <&3 || die "headraced did not get ready" "Its message is above."

@@ -14,6 +14,7 @@
 #include "server/service/endpoints.h"
 #include "server/service/log.h"
 #include "server/service/server.h"
+#include "server/solver/thread_wait.h"
 
 namespace {
 
@@ -132,6 +133,8 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    headrace::solver::restart_with_short_spin(argv);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is a failed write, which recordings report
     Options options;
     CLI::App app("A fluid simulation that is commanded over ZeroMQ while it runs.", "headraced");
     declare_options(app, options);

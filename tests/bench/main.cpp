@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "server/solver/thread_wait.h"
 #include "tests/bench/report.h"
 
 namespace bench = headrace::bench;
@@ -60,6 +61,7 @@ bool run_case(const std::string& preset, double refine, const Options& options, 
 }  // namespace
 
 int main(int argc, char** argv) {
+    headrace::solver::restart_with_short_spin(argv);  // as the server does
     CLI::App app{"Times the solver over the presets. One line per case and thread count."};
     Options options;
     define_options(app, options);

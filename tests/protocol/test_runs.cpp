@@ -42,7 +42,9 @@ TEST_CASE("Runs.LoadTellsWhatWasBuilt") {
 TEST_CASE("Runs.EachListedSceneLoadsWithAsManyParticlesAsListed") {
     TestServer server;
     Client client(server->control_endpoint());
-    for (const Json& scene : client.call("scene.list")["scenes"]) {
+    const Json scenes = client.call("scene.list")["scenes"];
+    REQUIRE_FALSE(scenes.empty());
+    for (const Json& scene : scenes) {
         INFO(scene.dump());
         CHECK(client.call("scene.load", {{"scene", scene["name"]}})["particles"] == scene["particles"]);
     }
