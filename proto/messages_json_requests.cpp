@@ -10,6 +10,7 @@ constexpr std::size_t kMaxParameters = 256;
 constexpr double kMaxWindow = 1024;      // frames under way to one reader
 constexpr double kMaxEvents = 10'000;    // in one reply
 constexpr double kMaxSteps = 1e15;       // below 2^53: exact in every JSON library
+constexpr double kMaxLongPoll = 60;      // [s] of events.since: ask again after each answer
 constexpr double kMaxWait = 86'400'000;  // [s] 1000 days, far below the range of the clocks
 constexpr std::size_t kMaxFileName = 255;
 
@@ -173,8 +174,9 @@ void describe(Visitor& v, RecordStop& m) {
 
 void describe(Visitor& v, EventsSince& m) {
     v.optional("seq", m.seq, {.meaning = "events after this number"});
-    v.optional("timeout", m.timeout,
-               {.meaning = "wall time to wait when there are none yet", .unit = "s", .range = between(0, kMaxWait)});
+    v.optional(
+        "timeout", m.timeout,
+        {.meaning = "wall time to wait when there are none yet", .unit = "s", .range = between(0, kMaxLongPoll)});
     v.optional("types", m.types,
                {.meaning = "types of events asked for; none: all", .text = Text::name, .max_items = kMaxNames});
     v.optional("limit", m.limit, {.meaning = "events at most", .unit = "1", .range = between(1, kMaxEvents)});

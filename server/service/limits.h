@@ -11,6 +11,5 @@ inline constexpr std::int64_t kSoftMessageLimit = 16 << 20;  // [bytes] larger r
 inline constexpr std::int64_t kHardMessageLimit = 64 << 20;  // [bytes] larger messages disconnect the peer
 inline constexpr std::size_t kMaxPendingReplies = 4096;      // commands handed over and not yet answered
 inline constexpr std::size_t kMaxWaiters = 4096;             // job.wait and events.since that wait
-inline constexpr double kMaxLongPoll = 60.0;                 // [s] timeout of events.since
 
 }  // namespace headrace::server
