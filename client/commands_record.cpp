@@ -42,6 +42,13 @@ void print_recording(const Globals& globals, const std::string& file, std::uint6
         print_line(summary);
 }
 
+// The simulation as recording finds it. Error: it has faulted, so that no run can come.
+proto::Result<proto::SimStatusReply> status_to_record(Connection& connection) {
+    auto status = call<proto::SimStatusReply>(connection, "sim.status", proto::SimStatus{});
+    if (status && status->fault) return fault_error(*status->fault);
+    return status;
+}
+
 constexpr const char* kNothingRuns =
     "nothing runs yet: recording begins with the next run (headrace resume); Ctrl-C ends it";
 
@@ -68,7 +75,7 @@ proto::Result<proto::JobReply> run_or_follow(Connection& connection, Recorder* r
 // A recording of ours.
 proto::Status record_here(const Globals& globals, Connection& connection, const RecordCommand& words,
                           const RecordOptions& options) {
-    auto before = call<proto::SimStatusReply>(connection, "sim.status", proto::SimStatus{});
+    auto before = status_to_record(connection);
     if (!before) return before.error();
     auto opened = Recorder::open(connection, options);
     if (!opened) return opened.error();
@@ -84,7 +91,7 @@ proto::Status record_here(const Globals& globals, Connection& connection, const 
 // The server writes; nothing but commands travels.
 proto::Status record_there(const Globals& globals, Connection& connection, const RecordCommand& words,
                            const RecordOptions& options) {
-    auto before = call<proto::SimStatusReply>(connection, "sim.status", proto::SimStatus{});
+    auto before = status_to_record(connection);
     if (!before) return before.error();
     proto::RecordStart start;
     start.file = words.file;

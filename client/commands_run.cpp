@@ -39,7 +39,8 @@ proto::Status run_until(const Globals& globals, Connection& connection, const pr
         print_job(*job);
     else if (job->state == proto::JobState::finished || job->state == proto::JobState::paused)
         print_line(job_line(*job, until));
-    return job_verdict(connection, *job);
+    return job_verdict(connection, *job,
+                       until.at_rest.value_or(false) ? "go on with: headrace resume --until at-rest" : "");
 }
 
 proto::Status resume(const Globals& globals, const ResumeOptions& options) {

@@ -26,6 +26,10 @@ struct Conversion {
     std::vector<std::string> summaries;  // one per format, in the order asked for
 };
 
+// Whether frames of these fields can become these formats. Errors: usage; invalid_params for a field that is missing.
+proto::Status check_formats(const std::vector<std::string>& formats);
+proto::Status check_fields(const std::vector<std::string>& formats, proto::FieldSet fields, proto::Field color_field);
+
 // On Ctrl-C the frames so far are converted and the files complete.
 proto::Result<Conversion> convert(const ConvertOptions& options);
 

@@ -109,7 +109,7 @@ proto::Error fault_error(const proto::FaultReport& fault) {
             "", fault.remedy};
 }
 
-proto::Status job_verdict(Connection& connection, const proto::JobReply& job) {
+proto::Status job_verdict(Connection& connection, const proto::JobReply& job, const std::string& timed_out_hint) {
     switch (job.state) {
         case proto::JobState::running:
         case proto::JobState::paused:
@@ -119,7 +119,7 @@ proto::Status job_verdict(Connection& connection, const proto::JobReply& job) {
             return proto::Error{
                 proto::ErrorCode::timed_out,
                 (job.reason.empty() ? "the run timed out" : job.reason) + " (" + at_moment(job.step, job.time) + ")",
-                "", "go on with: headrace resume --until at-rest"};
+                "", timed_out_hint};
         case proto::JobState::cancelled:
             return proto::Error{proto::ErrorCode::cancelled,
                                 "the run was cancelled at " + at_moment(job.step, job.time), "", ""};

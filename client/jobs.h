@@ -47,9 +47,9 @@ class JobWatch {
 // "at rest: step 1,234, t 12.34 s", "done: ...", "paused: ...".
 std::string job_line(const proto::JobReply& job, const proto::RunUntil& until);
 
-// What an end means for the exit status: nothing for finished or paused; timed_out, cancelled, or faulted with
-// criterion, particle and remedy.
-proto::Status job_verdict(Connection& connection, const proto::JobReply& job);
+// What an end means for the exit status: nothing for finished or paused; timed_out with the hint given, cancelled, or
+// faulted with criterion, particle and remedy.
+proto::Status job_verdict(Connection& connection, const proto::JobReply& job, const std::string& timed_out_hint = {});
 proto::Error fault_error(const proto::FaultReport& fault);
 
 }  // namespace headrace::client

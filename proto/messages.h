@@ -304,7 +304,7 @@ struct RecordStopReply {
 using EventValue = std::variant<bool, std::int64_t, double, std::string>;
 
 // Types (the stable list is in proto/README.md): server.started scene.loaded scene.load_failed job.started job.ended
-// job.paused job.resumed sim.at_rest sim.faulted params.changed object.added object.moved object.removed
+// job.paused job.resumed sim.at_rest sim.not_at_rest sim.faulted params.changed object.added object.moved object.removed
 // scene_event.fired stream.opened stream.closed stream.failed stream.stalled record.started record.stopped
 // record.failed server.problem server.stopping
 struct Event {

@@ -16,12 +16,13 @@ class AtRestWatch {
     // criterion's duration; stays true while that lasts.
     bool update(const scene::Run& run);
 
-    double threshold_speed() const { return threshold_; }  // [m/s]
+    // Has the scene's time-out passed since the watch began?
+    bool is_overdue(const scene::Run& run) const { return run.time() - watched_since_ > criterion_.timeout; }
 
   private:
     proto::AtRestDesc criterion_;
-    double threshold_{};                // [m/s] factor * sqrt(|g| H)
     std::optional<double> slow_since_;  // [s]
+    double watched_since_{};            // [s]
 };
 
 }  // namespace headrace::server

@@ -106,6 +106,7 @@ struct Simulation::Impl {
         if (report.fault) return fault(*report.fault);
         is_at_rest = watches_rest() && at_rest->update(*run);
         fire_scene_events();
+        report_overdue_rest();
         capture_due();
         if (!end_job_if_done()) write_status();
     }
@@ -206,7 +207,7 @@ struct Simulation::Impl {
         if (paused) end_job(*std::exchange(paused, std::nullopt), {proto::JobState::cancelled, "another scene"});
         refuse_deferred({ErrorCode::cancelled, "another scene was loaded before that step", "params.at_step", ""});
         run = std::move(*load.run);
-        is_faulted = is_at_rest = false;
+        is_faulted = is_at_rest = is_overdue_reported = false;
         fired.clear();
         at_rest.emplace(*run);
         status.forget_run();
@@ -444,7 +445,10 @@ struct Simulation::Impl {
             return;
         }
         is_faulted = true;
-        report("sim.faulted", "internal error: " + what, {{"criterion", std::string("internal_error")}});
+        const std::string remedy = "sim.reset or scene.load; report this as a bug";
+        status.set_fault({"internal_error", 0, {}, {}, run->step_number(), run->time(), what + "; " + remedy});
+        report("sim.faulted", "internal error: " + what,
+               {{"criterion", std::string("internal_error")}, {"remedy", remedy}});
         end_job(*std::exchange(job, std::nullopt), {proto::JobState::faulted, "internal error: " + what});
     }
 
@@ -463,15 +467,26 @@ struct Simulation::Impl {
 
     // ---- rest, scene events, hash -----------------------------------------------------------------------------------
 
-    bool watches_rest() const {
-        if (job->until_at_rest) return true;
+    bool watches_rest() const { return job->until_at_rest || waits_for_rest(); }
+
+    // Is there an event of the scene that waits for rest?
+    bool waits_for_rest() const {
         for (std::size_t k = 0; k < run->scene().events.size(); ++k)
             if (run->scene().events[k].at_rest && !fired.contains(k)) return true;
         return false;
     }
 
+    // An event of the scene that waits for rest must not wait for ever unnoticed.
+    void report_overdue_rest() {
+        if (is_overdue_reported || !waits_for_rest() || !at_rest->is_overdue(*run)) return;
+        is_overdue_reported = true;
+        report("sim.not_at_rest", "an event of the scene waits for rest; its at_rest.timeout has passed",
+               {{"timeout", run->scene().at_rest.timeout}});
+    }
+
     void fire_scene_events() {
         const auto& list = run->scene().events;
+        bool has_acted_on_rest = false;
         for (std::size_t k = 0; k < list.size(); ++k) {
             if (fired.contains(k)) continue;
             const proto::SceneEventDesc& event = list[k];
@@ -480,9 +495,14 @@ struct Simulation::Impl {
                                 (event.step && run->step_number() >= static_cast<std::uint64_t>(*event.step));
             if (!is_due) continue;
             fired.insert(k);
+            has_acted_on_rest |= event.at_rest;
             report("scene_event.fired", "scene event " + std::to_string(k), {{"event", static_cast<std::int64_t>(k)}});
             std::visit([this](const auto& action) { act(action); }, event.action);
         }
+        if (!has_acted_on_rest) return;
+        // What the event did may end the rest (it removes the panel): a run until at rest goes on to the next one.
+        is_at_rest = false;
+        at_rest.emplace(*run);
     }
 
     void act(const proto::RemoveObjectAction& action) { apply(0, proto::ObjectsRemove{action.name}); }
@@ -516,6 +536,7 @@ struct Simulation::Impl {
 
     std::optional<AtRestWatch> at_rest;
     bool is_at_rest{false};
+    bool is_overdue_reported{false};
     bool is_faulted{false};
     bool stalled{false};
     std::set<std::size_t> fired;  // scene events

@@ -1,4 +1,4 @@
-// ParaView files: per frame <stem>_000123.vtp with the particles as vertices, <stem>_objects_000.vtp whenever the
+// ParaView files: per frame <stem>_000123.vtp with the particles as vertices, <stem>_objects_000000.vtp whenever the
 // collision objects change, and <stem>.pvd that gives both a simulated time (parts 0 and 1).
 #include <charconv>
 #include <cstring>
@@ -8,6 +8,7 @@
 #include "client/writers/file_output.h"
 #include "client/writers/formats.h"
 #include "client/writers/object_mesh.h"
+#include "client/writers/scene_view.h"
 #include "client/writers/vtp_file.h"
 
 namespace headrace::client {
@@ -53,7 +54,8 @@ std::string exact(double number) {
     return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
 }
 
-VtpPiece make_particles(const FrameView& frame, const FrameColumn& position) {
+// `radius`: of a particle when drawn. [m]
+VtpPiece make_particles(const FrameView& frame, const FrameColumn& position, double radius) {
     const std::size_t count = frame.info.particle_count;
     VtpPiece piece;
     piece.point_count = count;
@@ -74,13 +76,14 @@ VtpPiece make_particles(const FrameView& frame, const FrameColumn& position) {
             piece.active_vectors = info.name;
     }
     piece.field_data = {make_vtp_array("TimeValue", std::vector<double>{frame.info.time}),
-                        make_vtp_array("step", std::vector<double>{static_cast<double>(frame.info.step)})};
+                        make_vtp_array("step", std::vector<double>{static_cast<double>(frame.info.step)}),
+                        make_vtp_array("particle_radius", std::vector<double>{radius})};
     return piece;
 }
 
 class VtpWriter final : public Writer {
   public:
-    explicit VtpWriter(const WriterOptions& options) : options_(options) {}
+    explicit VtpWriter(const WriterOptions& options) : options_(options), radius_(particle_radius(options.scene)) {}
     VtpWriter(const VtpWriter&) = delete;
     VtpWriter& operator=(const VtpWriter&) = delete;
 
@@ -99,7 +102,7 @@ class VtpWriter final : public Writer {
                                 ""};
 
         const std::string name = numbered_name(options_.stem, frames_, "vtp");
-        if (auto done = write_vtp(options_.folder / name, make_particles(frame, *position)); !done) return done;
+        if (auto done = write_vtp(options_.folder / name, make_particles(frame, *position, radius_)); !done) return done;
         if (auto done = write_objects(objects, frame.info.dimensions); !done) return done;
         list(frame.info.time, 0, name);
         if (!object_file_.empty()) list(frame.info.time, 1, object_file_);
@@ -142,6 +145,7 @@ class VtpWriter final : public Writer {
     std::filesystem::path collection_path() const { return options_.folder / (options_.stem + ".pvd"); }
 
     WriterOptions options_;
+    double radius_;                           // [m] of a particle
     std::string entries_;                     // of the collection, so far
     std::vector<proto::ObjectDesc> objects_;  // in object_file_
     std::string object_file_;                 // empty: there were no objects yet

@@ -36,10 +36,11 @@ Result<solver::Particles> sample_fluids(const proto::SceneDesc& scene, BuildCont
             }
             particles.id[slot] = static_cast<solver::Index>(slot);
             ++slot;
-            if (slot % 65'536 == 0) control.progress = 0.5 * static_cast<double>(slot) / static_cast<double>(count);
+            if (slot % 65'536 == 0)
+                control.progress = 0.4 + 0.3 * static_cast<double>(slot) / static_cast<double>(count);
             return !control.cancelled;
         });
-    if (control.cancelled) return Error{ErrorCode::cancelled, "loading was cancelled", "", "load it again"};
+    if (control.cancelled) return cancelled_error();
     return particles;
 }
 
@@ -77,7 +78,7 @@ std::int64_t count_particles(const proto::SceneDesc& scene) {
 Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildControl* control) {
     BuildControl nobody;
     BuildControl& watched = control != nullptr ? *control : nobody;
-    if (Status status = validate(scene); !status) return status.error();
+    if (Status status = validate(scene, watched); !status) return status.error();
 
     std::unique_ptr<Run> run(new Run);
     run->scene_ = scene;
@@ -97,7 +98,7 @@ Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildCont
         return Error{ErrorCode::scene_invalid,
                      "particle " + std::to_string(run->report_.fault->particle) + " is bad at the start", "scene",
                      run->report_.fault->remedy};
-    if (watched.cancelled) return Error{ErrorCode::cancelled, "loading was cancelled", "", "load it again"};
+    if (watched.cancelled) return cancelled_error();
     watched.progress = 1.0;
     return run;
 }

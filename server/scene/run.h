@@ -2,7 +2,6 @@
 // tests and benchmarks use directly.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,16 +10,11 @@
 
 #include "proto/result.h"
 #include "proto/scene_desc.h"
+#include "server/scene/build_control.h"
 #include "server/solver/diagnostics.h"
 #include "server/solver/model.h"
 
 namespace headrace::scene {
-
-// Progress of a build, and the wish to end it; shared between the builder and whoever waits.
-struct BuildControl {
-    std::atomic<double> progress{0.0};  // 0..1
-    std::atomic<bool> cancelled{false};
-};
 
 inline constexpr std::size_t kMostObjects = 1'000;
 

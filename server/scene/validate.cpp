@@ -125,15 +125,17 @@ Status validate_fluids(const proto::SceneDesc& scene) {
 }
 
 // A start inside an obstacle or outside a container would be a violent projection at the first step.
-Status validate_start(const proto::SceneDesc& scene) {
+Status validate_start(const proto::SceneDesc& scene, BuildControl& control) {
     const proto::ShapeDesc domain = proto::BoxDesc{scene.domain.min, scene.domain.max};
     const double slack = 1e-9 * scene.spacing;  // rounding in the document
     for (std::size_t k = 0; k < scene.fluids.size(); ++k) {
         Status outcome = Done{};
         const std::string path = indexed("fluids", k) + ".shape";
+        const std::int64_t cells = lattice_size(scene.fluids[k].shape, scene.dimensions, scene.spacing);
         std::int64_t points = 0;
         for_each_lattice_point(scene.fluids[k].shape, scene.dimensions, scene.spacing, [&](const proto::Vec3& x) {
             ++points;
+            if (points % 65'536 == 0) control.progress = 0.4 * static_cast<double>(points) / static_cast<double>(cells);
             if (!contains(domain, x, scene.dimensions))
                 outcome = invalid(path, "reaches out of the domain", "enlarge scene.domain");
             for (const proto::ObjectDesc& object : scene.objects) {
@@ -145,8 +147,9 @@ Status validate_start(const proto::SceneDesc& scene) {
                                        : invalid(path, "overlaps obstacle \"" + object.name + "\"",
                                                  "shrink the fluid or move the obstacle");
             }
-            return outcome.ok();
+            return outcome.ok() && !control.cancelled;
         });
+        if (control.cancelled) return cancelled_error();
         if (!outcome) return outcome;
         if (points == 0) return invalid(path, "holds no particle", "enlarge it or reduce scene.spacing");
     }
@@ -171,10 +174,14 @@ proto::Status validate_object(const proto::ObjectDesc& object, int dimensions, c
     return validate_shape(object.shape, dimensions, path + ".shape");
 }
 
-proto::Status validate(const proto::SceneDesc& scene) {
-    for (const auto& check : {validate_basics, validate_parameters, validate_objects, validate_fluids, validate_start})
+proto::Error cancelled_error() {
+    return {ErrorCode::cancelled, "loading was cancelled", "", "load it again"};
+}
+
+proto::Status validate(const proto::SceneDesc& scene, BuildControl& control) {
+    for (const auto& check : {validate_basics, validate_parameters, validate_objects, validate_fluids})
         if (Status status = check(scene); !status) return status;
-    return Done{};
+    return validate_start(scene, control);
 }
 
 }  // namespace headrace::scene

@@ -8,14 +8,17 @@
 
 #include "proto/result.h"
 #include "proto/scene_desc.h"
+#include "server/scene/build_control.h"
 #include "server/solver/parameters.h"
 
 namespace headrace::scene {
 
 inline constexpr std::int64_t kMostParticles = 50'000'000;  // 200 bytes each: 10 GB
 
-// Errors: scene_invalid, parameter_not_found, limit_exceeded with a path that starts with "scene".
-proto::Status validate(const proto::SceneDesc& scene);
+// Errors: scene_invalid, parameter_not_found, limit_exceeded with a path that starts with "scene"; cancelled.
+proto::Status validate(const proto::SceneDesc& scene, BuildControl& control);
+
+proto::Error cancelled_error();
 
 // One object by itself: finite, positive extents. `path` names it in errors.
 proto::Status validate_object(const proto::ObjectDesc& object, int dimensions, const std::string& path);

@@ -8,7 +8,6 @@
 
 #include "proto/envelope.h"
 #include "server/service/commands.h"
-#include "server/service/limits.h"
 
 namespace headrace::server {
 

@@ -13,7 +13,7 @@
 namespace headrace::test {
 
 inline std::filesystem::path schema_folder() {
-    return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "proto" / "schemas";
+    return std::filesystem::path(HEADRACE_SOURCE_DIR) / "proto" / "schemas";
 }
 
 inline std::map<std::string, std::string> schema_files() {
