@@ -19,12 +19,16 @@ namespace fs = std::filesystem;
 namespace {
 
 struct LocalRun {
-    std::string scene, until, out, formats{"vtp"}, fields;
+    std::string scene, until, out, format_words{"vtp"}, field_words;
     std::vector<std::string> assignments, removals;
     std::optional<std::int64_t> steps;
     std::optional<double> fps;
     bool at_rest{false}, overwrite{false};
     int threads{0};
+
+    std::vector<std::string> formats() const {
+        return format_words.empty() ? std::vector<std::string>{} : split(format_words, ',');
+    }
 };
 
 // Runs one after the other; each may end with an object that leaves.
@@ -79,7 +83,28 @@ struct Recorded {
     proto::Status outcome{proto::Done{}};  // of the run: the recording is there in any case
 };
 
-proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>& phases, const proto::Json& params) {
+// The fields that the user chose. Error: they are unknown, or too few for the files to look at.
+proto::Result<std::optional<proto::FieldSet>> chosen_fields(const LocalRun& words) {
+    const std::vector<std::string> formats = words.formats();
+    if (auto checked = check_formats(formats); !checked) return checked.error();
+    if (words.field_words.empty()) return std::optional<proto::FieldSet>{};
+    auto fields = parse_fields(words.field_words);
+    if (!fields) return fields.error();
+    if (auto checked = check_fields(formats, *fields, PictureOptions{}.color_field); !checked) return checked.error();
+    return std::optional<proto::FieldSet>{*fields};
+}
+
+// Whether the fields of the scene's own choice are enough for the files to look at.
+proto::Status check_scene_fields(Connection& connection, const LocalRun& words) {
+    auto document = connection.request("scene.get", proto::Json::object(), Patience::query);
+    if (!document) return document.error();
+    auto scene = proto::parse_scene(document->dump());
+    if (!scene) return scene.error();
+    return check_fields(words.formats(), scene->output.fields, PictureOptions{}.color_field);
+}
+
+proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>& phases, const proto::Json& params,
+                                 const std::optional<proto::FieldSet>& fields) {
     auto server = PrivateServer::start(words.threads);
     if (!server) return server.error();
     print_note("server " + (*server)->endpoint());
@@ -88,6 +113,8 @@ proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>
     auto loaded = load_scene(**connection, params);
     if (!loaded) return loaded.error();
     print_note(loaded_line(*loaded));
+    if (!fields)
+        if (auto checked = check_scene_fields(**connection, words); !checked) return checked.error();
 
     const fs::path folder = words.out.empty() ? fs::path(loaded->scene) : fs::path(words.out);
     std::error_code error;
@@ -97,11 +124,7 @@ proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>
     options.file = folder / (loaded->scene + ".mcap");
     options.overwrite = words.overwrite;
     if (words.fps) options.interval = 1.0 / *words.fps;
-    if (!words.fields.empty()) {
-        auto fields = parse_fields(words.fields);
-        if (!fields) return fields.error();
-        options.fields = *fields;
-    }
+    options.fields = fields;
     auto recorder = Recorder::open(**connection, options);
     if (!recorder) return recorder.error();
     proto::Status outcome = run_phases(**connection, **recorder, phases, loaded->scene);
@@ -114,7 +137,9 @@ proto::Status run(const Globals& globals, const LocalRun& words) {
     if (!phases) return phases.error();
     auto params = scene_load_params(words.scene, words.assignments);
     if (!params) return params.error();
-    auto recorded = simulate(words, *phases, *params);
+    auto fields = chosen_fields(words);
+    if (!fields) return fields.error();
+    auto recorded = simulate(words, *phases, *params, *fields);
     if (!recorded) return recorded.error();
 
     const std::string summary = recording_summary(recorded->frames, recorded->gaps);
@@ -122,11 +147,12 @@ proto::Status run(const Globals& globals, const LocalRun& words) {
         print_json({{"file", recorded->file.string()}, {"frames", recorded->frames}, {"gaps", recorded->gaps}});
     else
         print_line(summary + ", " + recorded->file.string());
-    if (words.formats.empty() || recorded->frames == 0 || is_interrupted()) return recorded->outcome;
+    const std::vector<std::string> formats = words.formats();
+    if (formats.empty() || recorded->frames == 0 || is_interrupted()) return recorded->outcome;
     ConvertOptions options;
     options.recording = recorded->file;
     options.folder = recorded->file.parent_path();
-    options.formats = split(words.formats, ',');
+    options.formats = formats;
     auto conversion = convert(options);
     if (!conversion) return recorded->outcome ? proto::Status(conversion.error()) : recorded->outcome;
     if (!globals.json)
@@ -157,8 +183,10 @@ void add_local_run_command(CLI::App& app, CommandLine& line) {
     runner->add_option("--out", words->out, "folder of the results; default: the scene's name");
     runner->add_option("--fps", words->fps, "frames per simulated second; default: the scene's")
         ->check(CLI::PositiveNumber);
-    runner->add_option("--fields", words->fields, "such as id,position,velocity; default: the scene's");
-    runner->add_option("--format", words->formats, "files to look at: vtp, csv, png; several with commas; \"\": none")
+    runner->add_option("--fields", words->field_words, "such as id,position,velocity; default: the scene's");
+    runner
+        ->add_option("--format", words->format_words,
+                     "files to look at: vtp, csv, png; several with commas; \"\": none")
         ->capture_default_str();
     runner->add_option("--threads", words->threads, "of the solver; default: as many as the machine has")
         ->check(CLI::PositiveNumber);

@@ -38,10 +38,8 @@ proto::Result<std::vector<std::unique_ptr<Writer>>> make_writers(const ConvertOp
     writer_options.expected_frames = frames;
     writer_options.picture = options.picture;
     std::vector<std::unique_ptr<Writer>> writers;
+    if (auto checked = check_formats(options.formats); !checked) return checked.error();
     for (const std::string& format : options.formats) {
-        const auto known = writer_formats();
-        if (std::find(known.begin(), known.end(), format) == known.end())
-            return usage_error("there is no format \"" + format + "\"", "--format", proto::suggest(format, known));
         auto writer = make_writer(format, writer_options);
         if (!writer) return writer.error();
         writers.push_back(*std::move(writer));
@@ -50,6 +48,27 @@ proto::Result<std::vector<std::unique_ptr<Writer>>> make_writers(const ConvertOp
 }
 
 }  // namespace
+
+proto::Status check_formats(const std::vector<std::string>& formats) {
+    const auto known = writer_formats();
+    for (const std::string& format : formats)
+        if (std::find(known.begin(), known.end(), format) == known.end())
+            return usage_error("there is no format \"" + format + "\"", "--format", proto::suggest(format, known));
+    return proto::Done{};
+}
+
+proto::Status check_fields(const std::vector<std::string>& formats, proto::FieldSet fields, proto::Field color_field) {
+    for (const std::string& format : formats) {
+        proto::FieldSet needed;
+        if (format == "vtp" || format == "png") needed.insert(proto::Field::position);
+        if (format == "png") needed.insert(color_field);
+        for (const proto::FieldInfo& info : proto::kFields)
+            if (needed.contains(info.field) && !fields.contains(info.field))
+                return usage_error(format + " files need the field " + std::string(info.name), "--fields",
+                                   "add it, or give other formats by --format");
+    }
+    return proto::Done{};
+}
 
 proto::Result<Conversion> convert(const ConvertOptions& options) {
     auto opened = proto::RecordingReader::open(options.recording);

@@ -26,8 +26,9 @@ struct Conversion {
     std::vector<std::string> summaries;  // one per format, in the order asked for
 };
 
-// Whether frames of these fields can become these formats. Errors: usage; invalid_params for a field that is missing.
+// Errors: usage, for a format that does not exist.
 proto::Status check_formats(const std::vector<std::string>& formats);
+// Errors: usage, for a field that a format needs (pictures: `color_field` too) and the frames will not have.
 proto::Status check_fields(const std::vector<std::string>& formats, proto::FieldSet fields, proto::Field color_field);
 
 // On Ctrl-C the frames so far are converted and the files complete.

@@ -99,19 +99,23 @@ headrace record "$out/dam_break.mcap" --for 3 --fps 100 --overwrite
 end_phase "dam break"
 
 say "writing ParaView files and pictures"
-rm -rf "$out/dam_break"
+# Only files that an earlier demo has made: the folder is the user's.
+if [ -d "$out/dam_break" ]; then
+    find "$out/dam_break" -maxdepth 1 -type f \( -name 'dam_break_[0-9]*.vtp' -o -name 'dam_break_objects_[0-9]*.vtp' \
+        -o -name 'dam_break.pvd' -o -name 'dam_break_[0-9]*.png' -o -name 'dam_break_sheet.png' \) -delete
+fi
 headrace convert "$out/dam_break.mcap" --format vtp,png --out "$out/dam_break"
 end_phase conversion
 
 # What there is now, and what it took.
 files="$out/dam_break"
 size_of() { du -ch "$@" 2>/dev/null | tail -1 | cut -f1; }
-count_of() { find "$files" -name "$1" | wc -l; }
+count_of() { find "$files" -maxdepth 1 -name "$1" | wc -l; }
 say "done"
 cat <<TEXT
 at a glance   $files/dam_break_sheet.png
-ParaView      $files/dam_break.pvd   ($(count_of '*.vtp') .vtp files, $(size_of "$files"/*.vtp))
-pictures      $files/dam_break_*.png   ($(count_of '*_[0-9]*.png') files, $(size_of "$files"/*.png))
+ParaView      $files/dam_break.pvd   ($(count_of 'dam_break_*.vtp') .vtp files, $(size_of "$files"/*.vtp))
+pictures      $files/dam_break_*.png   ($(count_of 'dam_break_[0-9]*.png') files, $(size_of "$files"/*.png))
 recording     $out/dam_break.mcap   ($(size_of "$out/dam_break.mcap"))
 TEXT
 printf 'time          %s' "${phases[0]}"

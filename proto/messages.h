@@ -113,8 +113,9 @@ struct SimReset {};   // loads the scene anew: step 0, its own objects and param
 
 // Reply to a mutation: where in the run it was applied.
 struct Applied {
-    std::uint64_t step{};  // before this step is computed
-    double time{};         // [s]
+    std::uint64_t step{};         // before this step is computed
+    double time{};                // [s]
+    std::optional<bool> pending;  // true, sim.pause, sim.cancel: a long step is still under way; it is the last one
 };
 
 struct SimStatus {
@@ -304,9 +305,9 @@ struct RecordStopReply {
 using EventValue = std::variant<bool, std::int64_t, double, std::string>;
 
 // Types (the stable list is in proto/README.md): server.started scene.loaded scene.load_failed job.started job.ended
-// job.paused job.resumed sim.at_rest sim.not_at_rest sim.faulted params.changed object.added object.moved object.removed
-// scene_event.fired stream.opened stream.closed stream.failed stream.stalled record.started record.stopped
-// record.failed server.problem server.stopping
+// job.paused job.resumed sim.at_rest sim.not_at_rest sim.faulted params.changed object.added object.moved
+// object.removed scene_event.fired stream.opened stream.closed stream.failed stream.stalled record.started
+// record.stopped record.failed server.problem server.stopping
 struct Event {
     std::uint64_t seq{};  // from 1, gap-free within a session
     std::string type;

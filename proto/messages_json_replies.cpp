@@ -63,6 +63,9 @@ void describe(Visitor& v, JobReply& m) {
 void describe(Visitor& v, Applied& m) {
     v.required("step", m.step, {.meaning = "applied before this step is computed", .unit = "1"});
     v.required("time", m.time, kTime);
+    v.optional(
+        "pending", m.pending,
+        {.meaning = "sim.pause, sim.cancel: the step (or load) under way is still being computed, it is the last one"});
 }
 
 void describe(Visitor& v, StateHash& m) {
@@ -114,7 +117,7 @@ void describe(Visitor& v, SimStatusReply& m) {
                {.meaning = "simulated seconds per wall second of late", .unit = "1"});
     v.optional("job", m.job, {.meaning = "the running or paused job, else the last one"});
     v.optional("diagnostics", m.diagnostics, {.meaning = "sums over all particles"});
-    v.optional("state_hash", m.state_hash, {.meaning = "only when it was asked for"});
+    v.optional("state_hash", m.state_hash, {.meaning = "of the last pause or end of a run, or as asked for"});
     v.optional("fault", m.fault, {.meaning = "why the run is faulted"});
     v.required("plan", m.plan, {.meaning = "stages of a step, and those left out"});
     v.required("streams", m.streams, {.meaning = "open streams", .unit = "1"});

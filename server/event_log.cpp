@@ -16,6 +16,12 @@ std::uint64_t EventLog::add(proto::Event event) {
     event.wall_clock = duration<double>(system_clock::now().time_since_epoch()).count();
     const std::lock_guard lock(mutex_);
     event.seq = ++last_seq_;
+    if (event.objects) with_objects_.push_back(event.seq);
+    if (with_objects_.size() > kObjectLists) {
+        const std::uint64_t oldest = with_objects_.front();
+        with_objects_.pop_front();
+        if (!events_.empty() && oldest >= events_.front().seq) events_[oldest - events_.front().seq].objects.reset();
+    }
     events_.push_back(std::move(event));
     if (events_.size() > kCapacity) events_.pop_front();
     for (Doorbell* listener : listeners_) listener->ring();

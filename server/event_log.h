@@ -14,6 +14,7 @@ namespace headrace::server {
 class EventLog {
   public:
     static constexpr std::size_t kCapacity = 10'000;  // older events are forgotten, and counted as lost
+    static constexpr std::size_t kObjectLists = 100;  // events that keep their list of objects: it may be long
 
     // The listeners' doorbells ring at each event; they outlive the log.
     void add_listener(Doorbell& doorbell);
@@ -30,6 +31,7 @@ class EventLog {
   private:
     mutable std::mutex mutex_;
     std::deque<proto::Event> events_;
+    std::deque<std::uint64_t> with_objects_;  // numbers of the events that have a list of objects
     std::uint64_t last_seq_{0};
     std::vector<Doorbell*> listeners_;
 };

@@ -36,14 +36,20 @@ Job Job::make(std::uint64_t number, const proto::RunUntil& until, const Place& n
     return job;
 }
 
-void Job::resume(const Place& now) {
-    resumed_at = pace_wall = Clock::now();
+void Job::restart_pace(const Place& now) {
+    pace_wall = Clock::now();
     pace_time = now.time;
+}
+
+void Job::resume(const Place& now) {
+    restart_pace(now);
+    resumed_at = pace_wall;
     is_running = true;
 }
 
 void Job::pause() {
-    wall_s += since(resumed_at);
+    if (is_running) wall_s += since(resumed_at);
+    is_running = false;
 }
 
 std::optional<Clock::time_point> Job::next_step_at(const Place& now, double dt) const {

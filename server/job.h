@@ -42,7 +42,8 @@ struct Job {
     static Job make(std::uint64_t number, const proto::RunUntil& until, const Place& now, double at_rest_timeout);
 
     void resume(const Place& now);  // starts or restarts the clocks
-    void pause();                   // stops them
+    void restart_pace(const Place& now);
+    void pause();  // stops them
 
     // When the next step may begin, if a pace holds it back.
     std::optional<Clock::time_point> next_step_at(const Place& now, double dt) const;

@@ -21,7 +21,12 @@ void JobBoard::write(const proto::JobReply& job) {
         return;
     }
     jobs_.insert(place, job);
-    if (jobs_.size() > kCapacity) jobs_.pop_front();
+    if (jobs_.size() <= kCapacity) return;
+    // The oldest that has ended; one that is paused or runs is still waited for.
+    const auto ended = std::find_if(jobs_.begin(), jobs_.end(), [](const proto::JobReply& entry) {
+        return entry.state != proto::JobState::running && entry.state != proto::JobState::paused;
+    });
+    if (ended != jobs_.end()) jobs_.erase(ended);
 }
 
 std::optional<proto::JobReply> JobBoard::find(std::uint64_t job) const {

@@ -134,6 +134,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
     headrace::solver::restart_with_short_spin(argv);
+    std::signal(SIGPIPE, SIG_IGN);  // whoever read our output has gone; the run goes on
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is a failed write, which recordings report
     Options options;
     CLI::App app("A fluid simulation that is commanded over ZeroMQ while it runs.", "headraced");

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "server/at_rest.h"
 #include "server/job.h"
@@ -16,6 +17,7 @@
 #include "server/publish/frame_builder.h"
 #include "server/publish/frame_hub.h"
 #include "server/scene/run.h"
+#include "server/scene/validate.h"
 #include "server/state_table.h"
 #include "server/status_writer.h"
 
@@ -82,7 +84,10 @@ struct Simulation::Impl {
         if (!job || stopping) return sleep();
         if (end_job_if_done()) return;
         stalled = !hub.may_step();
-        if (stalled) return sleep();
+        if (stalled) {
+            job->restart_pace(place());  // time lost to a reader is not caught up
+            return sleep();
+        }
         if (const auto begin = job->next_step_at(place(), run->model().time_step()); begin && Clock::now() < *begin) {
             write_status();
             return inbox.wait_until(*begin);
@@ -131,7 +136,10 @@ struct Simulation::Impl {
 
     void write_status() {
         SimulationView view{state(), run.get(), last_job, stalled, loader.progress()};
-        if (job) view.job = job->reply(proto::JobState::running, "", place());
+        if (job)
+            view.job = job->reply(proto::JobState::running, "", place());
+        else if (paused)
+            view.job = paused->reply(proto::JobState::paused, "", place());
         status.write(view);
     }
 
@@ -198,10 +206,14 @@ struct Simulation::Impl {
     void apply(Token, LoadFinished load) {
         loader.finish();
         const Token token = std::exchange(load_token, 0);
+        const std::vector<Token> cancels = std::exchange(load_cancels, {});
+        // A cancel that came when the work was nearly done still holds.
+        if (!cancels.empty() && load.run) load.run = scene::cancelled_error();
         if (!load.run) {
             report("scene.load_failed", load.run.error().message, {{"path", load.run.error().path}});
             write_status();
             outbox.put(token, load.run.error());
+            for (const Token cancel : cancels) outbox.put(cancel, Reply(applied()));
             return;
         }
         if (paused) end_job(*std::exchange(paused, std::nullopt), {proto::JobState::cancelled, "another scene"});
@@ -252,8 +264,7 @@ struct Simulation::Impl {
         stalled = false;
         job = Job::make(++last_job_number, until, place(), run->scene().at_rest.timeout);
         job->pace = pace;
-        if (job->until_at_rest) at_rest.emplace(*run);  // rest is counted from here
-        is_at_rest = false;
+        restart_rest_watch();
         announce("job.started", "job " + std::to_string(job->number) + " started");
         if (wait)
             job->waiting.push_back(token);
@@ -283,6 +294,7 @@ struct Simulation::Impl {
         job->pause();
         paused = std::exchange(job, std::nullopt);
         stalled = false;
+        hub.not_stepping();
         last_job = paused->reply(proto::JobState::paused, "", place());
         jobs.write(*last_job);
         refresh_hash();
@@ -297,6 +309,7 @@ struct Simulation::Impl {
         if (!job) {
             job = std::exchange(paused, std::nullopt);
             job->resume(place());
+            restart_rest_watch();
             announce("job.resumed", "job " + std::to_string(job->number) + " resumed");
         }
         answer(token, job->reply(proto::JobState::running, "", place()));
@@ -305,10 +318,10 @@ struct Simulation::Impl {
     void apply(Token token, proto::SimCancel) {
         if (loader.is_loading()) {
             loader.cancel();
-        } else {
-            if (job) end_job(*std::exchange(job, std::nullopt), {proto::JobState::cancelled, "cancelled"});
-            if (paused) end_job(*std::exchange(paused, std::nullopt), {proto::JobState::cancelled, "cancelled"});
+            load_cancels.push_back(token);  // answered when the worker has stopped
+            return;
         }
+        end_all_jobs({proto::JobState::cancelled, "cancelled"});
         answer(token, applied());
     }
 
@@ -412,6 +425,7 @@ struct Simulation::Impl {
     void end_job(Job ended, const Job::End& end) {
         if (ended.is_running) ended.pause();
         stalled = false;
+        hub.not_stepping();
         refresh_hash();
         last_job = ended.reply(end.state, end.reason, place());
         jobs.write(*last_job);
@@ -434,14 +448,20 @@ struct Simulation::Impl {
                 {"remedy", found.remedy}});
         refuse_deferred(
             {ErrorCode::faulted, "the run has faulted before that step", "params.at_step", "sim.reset or scene.load"});
-        end_job(*std::exchange(job, std::nullopt), {proto::JobState::faulted, found.criterion + "; " + found.remedy});
         capture_due();
+        end_all_jobs({proto::JobState::faulted, found.criterion + "; " + found.remedy});
+    }
+
+    void end_all_jobs(const Job::End& end) {
+        if (job) end_job(*std::exchange(job, std::nullopt), end);
+        if (paused) end_job(*std::exchange(paused, std::nullopt), end);
     }
 
     // An exception in our own code: the state is kept for inspection, nobody waits in vain.
     void give_up(const std::string& what) {
         if (!run || !job) {
-            report("sim.faulted", "internal error: " + what, {});
+            report("server.problem", "simulation: " + what);
+            inbox.wait_until(Clock::now() + std::chrono::milliseconds(100));  // should it come again: no busy loop
             return;
         }
         is_faulted = true;
@@ -449,7 +469,9 @@ struct Simulation::Impl {
         status.set_fault({"internal_error", 0, {}, {}, run->step_number(), run->time(), what + "; " + remedy});
         report("sim.faulted", "internal error: " + what,
                {{"criterion", std::string("internal_error")}, {"remedy", remedy}});
-        end_job(*std::exchange(job, std::nullopt), {proto::JobState::faulted, "internal error: " + what});
+        refuse_deferred(
+            {ErrorCode::faulted, "the run has faulted before that step", "params.at_step", "sim.reset or scene.load"});
+        end_all_jobs({proto::JobState::faulted, "internal error: " + what});
     }
 
     void say_goodbye() {
@@ -461,11 +483,18 @@ struct Simulation::Impl {
         if (paused)
             for (const Token token : paused->waiting) outbox.put(token, error);
         outbox.put(load_token, error);
+        for (const Token cancel : load_cancels) outbox.put(cancel, Reply(applied()));
         refuse_deferred(error);
         while (auto item = inbox.take()) outbox.put(item->token, error);
     }
 
     // ---- rest, scene events, hash -----------------------------------------------------------------------------------
+
+    // Rest is counted from here: what happened in between was not watched.
+    void restart_rest_watch() {
+        if (job->until_at_rest) at_rest.emplace(*run);
+        is_at_rest = false;
+    }
 
     bool watches_rest() const { return job->until_at_rest || waits_for_rest(); }
 
@@ -527,6 +556,7 @@ struct Simulation::Impl {
     std::shared_ptr<scene::Run> run;
     Loader loader;
     Token load_token{0};
+    std::vector<Token> load_cancels;
 
     std::optional<Job> job;     // the running one
     std::optional<Job> paused;  // the paused one

@@ -57,7 +57,7 @@ install_packages "${packages[@]}"
 
 # The MCAP reader of another project judges our recordings.
 mcap="$root/tests/support/mcap"
-if [ $full = yes ] && [ -f "$mcap/package-lock.json" ] &&
+if [ $full = yes ] && [ -z "${HEADRACE_NO_INSTALL:-}" ] && [ -f "$mcap/package-lock.json" ] &&
     ! cmp -s "$mcap/package-lock.json" "$mcap/node_modules/.installed-lock.json"; then
     say "installing the Node.js packages of tests/support/mcap"
     (cd "$mcap" && npm ci --no-audit --no-fund --loglevel=error) ||

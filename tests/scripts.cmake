@@ -43,17 +43,26 @@ foreach(compression none zstd)
            COMMAND write_sample_recording ${results}/${compression}.mcap ${compression} ${results}/frame_${compression}.bin)
   set_tests_properties("mcap: samples are written, ${compression}" PROPERTIES LABELS script FIXTURES_SETUP samples)
 endforeach()
-headrace_script_test("mcap: the reference implementation reads our recordings" script support/check_mcap.sh ${root}
+headrace_script_test("mcap: the reference implementation reads our recordings" script support/check_mcap.sh ${root} 20
                      ${results}/none.mcap ${results}/zstd.mcap FIXTURE samples)
 headrace_script_test("frame: ten lines of NumPy read it" script support/check_parse_frame.py ${results}/frame_none.bin
                      NEEDS numpy FIXTURE samples)
 
-# The client as a user drives it.
+# The client as a user drives it. `commands` leaves recordings and converted files in ${results}/commands.
 file(GLOB cli_scripts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS cli/*.sh)
 foreach(script IN LISTS cli_scripts)
   get_filename_component(name ${script} NAME_WE)
-  headrace_script_test("cli: ${name}" cli ${script} $<TARGET_FILE:headraced> $<TARGET_FILE:headrace> ${root})
+  headrace_script_test("cli: ${name}" cli ${script} $<TARGET_FILE:headraced> $<TARGET_FILE:headrace> ${root}
+                       ${results})
 endforeach()
+set_tests_properties("cli: commands" PROPERTIES FIXTURES_SETUP commands)
+headrace_script_test("mcap: the reference implementation reads the programs' recordings" script support/check_mcap.sh
+                     ${root} 11 ${results}/commands/idle.mcap ${results}/commands/there.mcap FIXTURE commands)
+headrace_script_test("vtp: VTK finds the numbers of the CSV files" script support/check_vtp.py
+                     ${results}/commands/whole/idle.pvd --frames 11 --points 2197
+                     --csv ${results}/commands/whole/idle_frames.csv FIXTURE commands)
+headrace_script_test("install: the programs work from where they are installed" script support/check_installed.sh
+                     ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR} ${results}/prefix)
 
 # The main job, with the programs of this build.
 headrace_script_test("demo: dam break from load to pictures" demo support/check_demo.sh ${PROJECT_BINARY_DIR} ${root}
@@ -61,3 +70,5 @@ headrace_script_test("demo: dam break from load to pictures" demo support/check_
 set_tests_properties("demo: dam break from load to pictures" PROPERTIES FIXTURES_SETUP demo)
 headrace_script_test("vtp: VTK reads the demo's files" demo support/check_vtp.py ${results}/demo/dam_break/dam_break.pvd
                      --frames 301 --points 3000 FIXTURE demo)
+headrace_script_test("mcap: the reference implementation reads the demo's recording" demo support/check_mcap.sh
+                     ${root} 301 ${results}/demo/dam_break.mcap FIXTURE demo)

@@ -102,7 +102,8 @@ class VtpWriter final : public Writer {
                                 ""};
 
         const std::string name = numbered_name(options_.stem, frames_, "vtp");
-        if (auto done = write_vtp(options_.folder / name, make_particles(frame, *position, radius_)); !done) return done;
+        if (auto done = write_vtp(options_.folder / name, make_particles(frame, *position, radius_)); !done)
+            return done;
         if (auto done = write_objects(objects, frame.info.dimensions); !done) return done;
         list(frame.info.time, 0, name);
         if (!object_file_.empty()) list(frame.info.time, 1, object_file_);

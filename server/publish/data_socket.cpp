@@ -33,34 +33,34 @@ void DataSocket::read_requests() {
             parts.emplace_back();
             if (!socket_.recv(parts.back(), zmq::recv_flags::none)) break;
         }
-        if (parts.size() == 2 && parts.front().size() == 0) {
+        if (parts.size() > 1 && parts.front().size() == 0) {
             peer.has_delimiter = true;
             parts.erase(parts.begin());
         }
         if (parts.size() == 1)
-            handle_safely(peer, parts.front().to_string_view());
+            handle(peer, parts.front().to_string_view());
         else
             answer(peer, proto::rpc_error_text("null", {ErrorCode::invalid_request, "a request is one message part", "",
                                                         "send JSON in one part"}));
     }
 }
 
-void DataSocket::handle_safely(const Peer& peer, std::string_view text) {
+void DataSocket::handle(const Peer& peer, std::string_view text) {
+    std::string id = "null";
     try {
-        handle(peer, text);
+        const auto parsed = proto::parse_rpc_request(text, soft_limit_);
+        if (const auto* refusal = std::get_if<proto::RpcRefusal>(&parsed))
+            return answer(peer, proto::rpc_error_text(refusal->id, refusal->error));
+        const auto& request = std::get<proto::RpcRequest>(parsed);
+        id = request.id;
+        carry_out(peer, request);
     } catch (const std::exception& problem) {
         answer(peer,
-               proto::rpc_error_text("null", {ErrorCode::internal_error, problem.what(), "", "report this as a bug"}));
+               proto::rpc_error_text(id, {ErrorCode::internal_error, problem.what(), "", "report this as a bug"}));
     }
 }
 
-void DataSocket::handle(const Peer& peer, std::string_view text) {
-    const auto parsed = proto::parse_rpc_request(text, soft_limit_);
-    if (const auto* refusal = std::get_if<proto::RpcRefusal>(&parsed)) {
-        answer(peer, proto::rpc_error_text(refusal->id, refusal->error));
-        return;
-    }
-    const auto& request = std::get<proto::RpcRequest>(parsed);
+void DataSocket::carry_out(const Peer& peer, const proto::RpcRequest& request) {
     // An acknowledgement may come as a notification: nothing is sent back then.
     const auto reply = [&](const std::string& message) {
         if (!request.is_notification) answer(peer, message);
@@ -94,6 +94,7 @@ void DataSocket::handle(const Peer& peer, std::string_view text) {
             if (opened) streams_.flush(opened->stream);
         });
     } else if (request.method == "frame.get") {
+        if (request.is_notification) return;  // nobody to send the frame to
         handled.template operator()<proto::FrameGet>([&](const proto::FrameGet& get) {
             const auto now = board_.read();
             if (!now->scene) {
@@ -123,10 +124,11 @@ void DataSocket::handle(const Peer& peer, std::string_view text) {
 bool DataSocket::deliver(const CaptureFor& capture) {
     const auto place = waiting_.find(capture.demand);
     if (place == waiting_.end()) return false;
+    // Encoded before it is taken from the list: should that fail, the request is still there to be refused.
+    zmq::message_t frame = encode_capture(*capture.capture, place->second.request.fields, "frame.get", session_, 1);
     const WaitingFrame wanted = std::move(place->second);
     waiting_.erase(place);
     hub_.remove(capture.demand);
-    zmq::message_t frame = encode_capture(*capture.capture, wanted.request.fields, "frame.get", session_, 1);
     const proto::FrameGetReply reply{capture.capture->step, capture.capture->time,
                                      static_cast<std::int64_t>(frame.size())};
     try {
@@ -138,6 +140,15 @@ bool DataSocket::deliver(const CaptureFor& capture) {
         // The peer has gone: nobody waits for the answer.
     }
     return true;
+}
+
+void DataSocket::refuse(DemandId demand, const Error& error) {
+    const auto place = waiting_.find(demand);
+    if (place == waiting_.end()) return;
+    const WaitingFrame wanted = std::move(place->second);
+    waiting_.erase(place);
+    hub_.remove(demand);
+    answer(wanted.peer, proto::rpc_error_text(wanted.id, error));
 }
 
 void DataSocket::refuse_waiting(const Error& error) {

@@ -12,6 +12,10 @@
 #include "server/publish/lossless_streams.h"
 #include "server/status.h"
 
+namespace headrace::proto {
+struct RpcRequest;
+}
+
 namespace headrace::publish {
 
 // Owner: the publisher thread.
@@ -28,8 +32,9 @@ class DataSocket {
           soft_limit_(soft_limit),
           settle_(std::move(settle)) {}
 
-    void read_requests();                     // handles what has arrived
-    bool deliver(const CaptureFor& capture);  // false: not a frame.get of ours
+    void read_requests();                                     // handles what has arrived
+    bool deliver(const CaptureFor& capture);                  // false: not a frame.get of ours
+    void refuse(DemandId demand, const proto::Error& error);  // nothing happens when it is not ours
     void refuse_waiting(const proto::Error& error);
 
   private:
@@ -38,8 +43,8 @@ class DataSocket {
         Peer peer;
         std::string id;  // of the request, JSON text
     };
-    void handle_safely(const Peer& peer, std::string_view text);  // an exception is answered, too
     void handle(const Peer& peer, std::string_view text);
+    void carry_out(const Peer& peer, const proto::RpcRequest& request);
     void answer(const Peer& peer, const std::string& text);
     bool send_head(const Peer& peer);
 

@@ -3,9 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 #include <utility>
 
 namespace headrace::publish {
+
+namespace {
+
+// Rounds down; an interval of next to nothing must not leave the integer's range.
+std::int64_t whole(double count) {
+    return static_cast<std::int64_t>(std::fmin(std::floor(count), 9e15));
+}
+
+}  // namespace
 
 FrameHub::Entry* FrameHub::find(DemandId id) {
     const auto place =
@@ -62,8 +72,28 @@ void FrameHub::release(DemandId id, std::int64_t captures) {
 }
 
 void FrameHub::set_credits(DemandId id, std::int64_t credits) {
+    {
+        const std::lock_guard lock(mutex_);
+        Entry* entry = find(id);
+        if (entry == nullptr) return;
+        entry->demand.credits = credits;
+        if (entry->is_full()) return;
+        entry->holding_since.reset();
+    }
+    wake_simulation();
+}
+
+void FrameHub::restart_hold(DemandId id) {
     const std::lock_guard lock(mutex_);
-    if (Entry* entry = find(id)) entry->demand.credits = credits;
+    Entry* entry = find(id);
+    if (entry != nullptr && entry->holding_since) entry->holding_since = std::chrono::steady_clock::now();
+}
+
+void FrameHub::fail(DemandId id) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(entries_, [id](const Entry& entry) { return entry.demand.id == id; });
+    failed_.push_back(id);
+    doorbell_.ring();
 }
 
 void FrameHub::set_active(DemandId id, bool active) {
@@ -118,6 +148,11 @@ bool FrameHub::may_step() {
     return may;
 }
 
+void FrameHub::not_stepping() {
+    const std::lock_guard lock(mutex_);
+    for (Entry& entry : entries_) entry.holding_since.reset();
+}
+
 bool FrameHub::is_due(const Entry& entry, const Moment& now) const {
     if (!entry.active) return false;
     if (entry.wants_now) return true;
@@ -151,12 +186,11 @@ void FrameHub::count_trigger(Entry& entry, const Moment& now) {
             entry.triggers = static_cast<std::int64_t>(now.step - entry.origin->step) / entry.demand.every_steps;
             break;
         case Trigger::interval:
-            entry.triggers =
-                static_cast<std::int64_t>(std::floor((now.time - entry.origin->time) / entry.demand.interval + 1e-6));
+            entry.triggers = whole((now.time - entry.origin->time) / entry.demand.interval + 1e-6);
             break;
         case Trigger::rate:
-            entry.triggers = static_cast<std::int64_t>(
-                std::chrono::duration<double>(now.wall - entry.origin->wall).count() / entry.demand.interval);
+            entry.triggers =
+                whole(std::chrono::duration<double>(now.wall - entry.origin->wall).count() / entry.demand.interval);
             break;
         case Trigger::once:
             break;
@@ -188,9 +222,15 @@ void FrameHub::capture_due(const Moment& now, const Copy& copy) {
 
     // The copies are made without the lock: the publisher goes on meanwhile.
     std::array<std::shared_ptr<const Capture>, 2> copies;
-    for (const proto::Precision precision : {proto::Precision::f4, proto::Precision::f8}) {
-        const auto k = static_cast<std::size_t>(precision);
-        if (!fields[k].empty()) copies[k] = copy(fields[k], precision);
+    try {
+        for (const proto::Precision precision : {proto::Precision::f4, proto::Precision::f8}) {
+            const auto k = static_cast<std::size_t>(precision);
+            if (!fields[k].empty()) copies[k] = copy(fields[k], precision);
+        }
+    } catch (const std::bad_alloc&) {
+        // Asked again it would fail again: the consumers are told instead.
+        for (const DemandId id : due) fail(id);
+        return;
     }
 
     const std::lock_guard lock(mutex_);

@@ -79,6 +79,9 @@ class FrameHub {
     void request_frame(DemandId id);            // one more frame of the present state, as soon as possible
     std::vector<CaptureFor> take();
     void set_credits(DemandId id, std::int64_t credits);
+    void restart_hold(DemandId id);  // holding_since counts from now
+    // This demand's consumer cannot take its captures: it is removed, and take_failed tells.
+    void fail(DemandId id);
     std::vector<DemandId> take_failed();  // demands with WhenFull::fail that found no credit; they are removed
     // Since when has this demand held the simulation up? Nothing: it does not.
     std::optional<std::chrono::steady_clock::time_point> holding_since(DemandId id) const;
@@ -86,7 +89,8 @@ class FrameHub {
     void set_waker(std::function<void()> wake_simulation);
 
     // ---- simulation's side ----
-    bool may_step();  // false: a demand with WhenFull::hold has no credit
+    bool may_step();      // false: a demand with WhenFull::hold has no credit
+    void not_stepping();  // paused or ended: nobody is held up
     // Copies what is due now. `copy` is called once per precision in use at most, and not at all when nothing is due.
     void capture_due(const Moment& now, const Copy& copy);
     // After a load or reset: another generation begins, intervals count from here, everybody gets the new state.

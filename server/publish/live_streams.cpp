@@ -45,6 +45,15 @@ proto::Result<proto::StreamCloseReply> LiveStreams::close(const std::string& str
     return reply;
 }
 
+bool LiveStreams::drop(DemandId demand) {
+    const auto place = std::find_if(streams_.begin(), streams_.end(),
+                                    [&](const auto& entry) { return entry.second.demand == demand; });
+    if (place == streams_.end()) return false;
+    hub_.remove(demand);
+    streams_.erase(place);
+    return true;
+}
+
 bool LiveStreams::deliver(const CaptureFor& capture) {
     const auto place = std::find_if(streams_.begin(), streams_.end(),
                                     [&](const auto& entry) { return entry.second.demand == capture.demand; });

@@ -26,6 +26,7 @@ class LiveStreams {
     bool has(const std::string& stream) const { return streams_.contains(stream); }
     std::size_t size() const { return streams_.size(); }
 
+    bool drop(DemandId demand);               // ends the stream of this demand; false: not one of ours
     bool deliver(const CaptureFor& capture);  // false: not for one of ours
     void read_subscriptions();                // takes what XPUB reports
 

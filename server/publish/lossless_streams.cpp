@@ -18,6 +18,23 @@ Error no_such_stream(const std::string& stream, const char* path) {
             "it was closed, has failed, or belongs to an earlier session of the server; open a new one"};
 }
 
+// Bytes of a frame of so many particles, nearly: the header and the table are small beside them.
+std::size_t frame_bytes(const proto::StreamOpen& request, std::int64_t particles) {
+    std::size_t row = 0;
+    for (const proto::FieldInfo& info : proto::kFields) {
+        if (!request.fields.contains(info.field)) continue;
+        const std::size_t real = request.precision == proto::Precision::f8 ? 8 : 4;
+        row += info.is_integer ? 4 : real * (info.is_vector ? 3 : 1);
+    }
+    return row * static_cast<std::size_t>(particles);
+}
+
+// Large frames get a smaller window: what is kept for a resume stays bounded.
+std::int64_t fitting_window(const proto::StreamOpen& request, std::size_t bytes) {
+    const auto fit = static_cast<std::int64_t>(LosslessStreams::kMostWindowBytes / std::max<std::size_t>(1, bytes));
+    return std::clamp<std::int64_t>(fit, 1, request.window);
+}
+
 }  // namespace
 
 proto::Result<proto::StreamOpenReply> LosslessStreams::open(const proto::StreamOpen& request, const Peer& peer) {
@@ -32,20 +49,19 @@ proto::Result<proto::StreamOpenReply> LosslessStreams::open(const proto::StreamO
     demand.interval = request.interval.value_or(0.0);
     demand.every_steps = request.every_steps.value_or(1);
     demand.when_full = request.on_stall == proto::OnStall::pause ? WhenFull::hold : WhenFull::fail;
-    demand.credits = request.window;
-
     const auto now = board_.read();
     proto::StreamOpenReply reply;
     reply.stream = "data/" + std::to_string(++opened_);
     reply.mode = proto::StreamMode::lossless;
-    reply.window = request.window;
+    reply.window = fitting_window(request, frame_bytes(request, now->status.particles));
     reply.step = now->status.step;
     reply.time = now->status.time;
 
+    demand.credits = reply.window;
     Stream stream;
     stream.request = request;
     stream.peer = peer;
-    stream.window = request.window;
+    stream.window = reply.window;
     stream.demand = hub_.add(demand);
     streams_.emplace(reply.stream, std::move(stream));
     report("stream.opened", reply.stream, "lossless stream opened");
@@ -66,6 +82,7 @@ proto::Result<proto::StreamOpenReply> LosslessStreams::resume(const proto::Strea
     stream.acked = acked;
     drop_acked(stream);
     stream.sent = acked;
+    hub_.restart_hold(stream.demand);  // the new reader gets the whole stall time-out
     const auto now = board_.read();
     return proto::StreamOpenReply{
         place->first, proto::StreamMode::lossless, stream.window, acked + 1, now->status.step, now->status.time};
@@ -88,10 +105,9 @@ proto::Result<proto::StreamAckReply> LosslessStreams::ack(const proto::StreamAck
     stream.acked = std::max(stream.acked, request.seq);
     const proto::StreamAckReply reply{stream.acked};
     drop_acked(stream);
-    if (stream.is_closing && stream.unacked.empty())
-        streams_.erase(place);
-    else
-        send_unsent(stream);
+    if (stream.is_closing && stream.unacked.empty()) streams_.erase(place);
+    // The peer takes messages again: so may its other streams.
+    for (auto& [id, other] : streams_) send_unsent(other);
     return reply;
 }
 
@@ -114,9 +130,7 @@ bool LosslessStreams::deliver(const CaptureFor& capture) {
     if (place == streams_.end()) return false;
     auto& [topic, stream] = *place;
     Sent sent{++stream.seq, encode_capture(*capture.capture, stream.request.fields, topic, session_, stream.seq)};
-    // Large frames get a smaller window: what is kept for a resume stays bounded.
-    const auto fit = static_cast<std::int64_t>(kMostWindowBytes / std::max<std::size_t>(1, sent.message.size()));
-    const std::int64_t window = std::clamp<std::int64_t>(fit, 1, stream.request.window);
+    const std::int64_t window = fitting_window(stream.request, sent.message.size());
     if (window != stream.window) hub_.set_credits(stream.demand, stream.window = window);
     stream.unacked.push_back(std::move(sent));
     send_unsent(stream);
@@ -151,23 +165,31 @@ void LosslessStreams::drop_acked(Stream& stream) {
     }
     if (released == 0) return;
     stream.stall_reported = false;
+    stream.closed_at = Clock::now();
     hub_.release(stream.demand, released);
 }
 
-void LosslessStreams::fail_overrun(DemandId demand) {
+bool LosslessStreams::fail(DemandId demand, const std::string& why) {
     const auto place = std::find_if(streams_.begin(), streams_.end(),
                                     [&](const auto& entry) { return entry.second.demand == demand; });
-    if (place != streams_.end())
-        fail(place, "a frame found the window of " + std::to_string(place->second.window) + " full (on_stall: fail)");
+    if (place == streams_.end()) return false;
+    if (!place->second.is_closing) fail(place, why);
+    return true;
 }
 
 std::chrono::steady_clock::time_point LosslessStreams::check_stalls() {
     constexpr auto kReportAfter = std::chrono::seconds(1);
+    constexpr auto kRetryAfter = std::chrono::milliseconds(100);  // what a full or absent peer did not take
     const Clock::time_point now = Clock::now();
     Clock::time_point next = now + std::chrono::hours(1);
     for (auto place = streams_.begin(); place != streams_.end();) {
         Stream& stream = place->second;
         const auto current = place++;
+        if (stream.sent < stream.seq && now >= stream.retry_at) {
+            stream.retry_at = now + kRetryAfter;
+            send_unsent(stream);
+        }
+        if (stream.sent < stream.seq) next = std::min(next, std::max(stream.retry_at, now + kRetryAfter));
         const auto since = stream.is_closing ? std::optional(stream.closed_at) : hub_.holding_since(stream.demand);
         if (!since) continue;
         const auto deadline =
@@ -180,16 +202,17 @@ std::chrono::steady_clock::time_point LosslessStreams::check_stalls() {
             stream.stall_reported = true;
             report("stream.stalled", current->first, "the run waits for acknowledgements of this stream");
         }
-        next = std::min({next, deadline, stream.stall_reported ? deadline : *since + kReportAfter});
+        const bool may_report = !stream.is_closing && !stream.stall_reported;
+        next = std::min({next, deadline, may_report ? *since + kReportAfter : deadline});
     }
     return next;
 }
 
 void LosslessStreams::fail(std::map<std::string, Stream>::iterator place, const std::string& why) {
     hub_.remove(place->second.demand);
-    if (!place->second.is_closing)
+    if (!place->second.is_closing || !place->second.unacked.empty())
         report("stream.failed", place->first,
-               why + "; frames after " + std::to_string(place->second.seq) + " are lost");
+               why + "; frames after " + std::to_string(place->second.acked) + " may be lost");
     streams_.erase(place);
 }
 

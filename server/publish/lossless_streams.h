@@ -42,8 +42,8 @@ class LosslessStreams {
     bool has(const std::string& stream) const { return streams_.contains(stream); }
     std::size_t size() const { return streams_.size(); }
 
-    bool deliver(const CaptureFor& capture);  // false: not for one of ours
-    void fail_overrun(DemandId demand);       // on_stall: fail found the window full
+    bool deliver(const CaptureFor& capture);             // false: not for one of ours
+    bool fail(DemandId demand, const std::string& why);  // false: not one of ours
     // Reports and fails what has held the simulation up for too long. Returns when to look again.
     std::chrono::steady_clock::time_point check_stalls();
 
@@ -64,7 +64,8 @@ class LosslessStreams {
         std::deque<Sent> unacked;
         bool is_closing{false};
         bool stall_reported{false};
-        Clock::time_point closed_at{};
+        Clock::time_point closed_at{};  // or of the last acknowledgement since
+        Clock::time_point retry_at{};
     };
     proto::Result<proto::StreamOpenReply> resume(const proto::StreamOpen& request, const Peer& peer);
     void send_unsent(Stream& stream);

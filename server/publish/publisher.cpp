@@ -109,7 +109,8 @@ struct Publisher::Impl {
         wait();
         hub.doorbell().quiet();
         deliver_captures();
-        for (const DemandId id : hub.take_failed()) lossless.fail_overrun(id);
+        for (const DemandId id : hub.take_failed())
+            fail_consumer(id, "a frame could not be kept: the window was full (on_stall: fail), or memory is short");
         run_errands();
         live.read_subscriptions();
         read_event_subscriptions();
@@ -128,6 +129,7 @@ struct Publisher::Impl {
         run_errands();
         recorder.stop_all("because the server stops");
         publish_events();
+        data_socket.read_requests();
         data_socket.refuse_waiting(
             {proto::ErrorCode::shutting_down, "the server is shutting down", "", "start it again"});
     }
@@ -156,10 +158,22 @@ struct Publisher::Impl {
 
     void deliver_captures() {
         for (const CaptureFor& capture : hub.take()) {
-            // Captures nobody claims belong to a consumer that has gone meanwhile.
-            [[maybe_unused]] const bool claimed = live.deliver(capture) || lossless.deliver(capture) ||
-                                                  recorder.deliver(capture) || data_socket.deliver(capture);
+            try {
+                // Captures nobody claims belong to a consumer that has gone meanwhile.
+                [[maybe_unused]] const bool claimed = live.deliver(capture) || lossless.deliver(capture) ||
+                                                      recorder.deliver(capture) || data_socket.deliver(capture);
+            } catch (const std::exception& problem) {
+                fail_consumer(capture.demand, problem.what());
+            }
         }
+    }
+
+    // A consumer that lost a frame is told so and ends: nothing is lost silently, and its credits hold nobody up.
+    void fail_consumer(DemandId demand, const std::string& why) {
+        if (live.drop(demand)) report_problem(("a live stream ended: " + why).c_str());
+        lossless.fail(demand, why);
+        recorder.fail(demand, why);
+        data_socket.refuse(demand, {proto::ErrorCode::internal_error, why, "", "ask for fewer fields"});
     }
 
     void run_errands() {
@@ -240,8 +254,11 @@ struct Publisher::Impl {
         const auto now = Clock::now();
         if (!is_status_wanted || now < next_status) return;
         next_status = now + std::chrono::seconds(1);
-        events_socket.send(text_message("status", proto::to_json(board.read()->status).dump()),
-                           zmq::send_flags::dontwait);
+        proto::SimStatusReply status = board.read()->status;
+        status.streams = static_cast<std::int64_t>(live.size() + lossless.size());
+        status.recordings = static_cast<std::int64_t>(recorder.size());
+        status.uptime_s = std::chrono::duration<double>(now - started).count();
+        events_socket.send(text_message("status", proto::to_json(status).dump()), zmq::send_flags::dontwait);
     }
 
     FrameHub& hub;
@@ -257,6 +274,7 @@ struct Publisher::Impl {
     Recorder recorder;
     DataSocket data_socket;
 
+    const Clock::time_point started{Clock::now()};
     std::uint64_t published_seq{0};
     std::set<std::string> status_subscriptions;
     bool is_status_wanted{false};

@@ -138,6 +138,14 @@ bool Recorder::deliver(const CaptureFor& capture) {
     return true;
 }
 
+bool Recorder::fail(DemandId demand, const std::string& why) {
+    const auto place = std::find_if(recordings_.begin(), recordings_.end(),
+                                    [&](const auto& entry) { return entry.second.demand == demand; });
+    if (place == recordings_.end()) return false;
+    fail(place, {ErrorCode::internal_error, why, "", "what was recorded before stays readable"});
+    return true;
+}
+
 void Recorder::write_event(const proto::Event& event) {
     for (auto place = recordings_.begin(); place != recordings_.end();) {
         const auto current = place++;

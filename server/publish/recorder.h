@@ -31,7 +31,8 @@ class Recorder {
     void stop_all(const std::string& why);
     std::size_t size() const { return recordings_.size(); }
 
-    bool deliver(const CaptureFor& capture);  // false: not for one of ours
+    bool deliver(const CaptureFor& capture);             // false: not for one of ours
+    bool fail(DemandId demand, const std::string& why);  // false: not one of ours
     void write_event(const proto::Event& event);
     void write_command(const std::string& json, double time);
 

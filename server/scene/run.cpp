@@ -164,7 +164,12 @@ Status Run::move_object(const std::string& name, const std::optional<proto::Vec3
         const proto::Vec3 center = center_of(object.shape);
         for (int k = 0; k < scene_.dimensions; ++k) displacement[k] = (*to)[k] - center[k];
     }
-    object.shape = moved_by(object.shape, displacement);
+    proto::ObjectDesc moved = object;
+    moved.shape = moved_by(object.shape, displacement);
+    if (Status status = validate_object(moved, scene_.dimensions, "params"); !status)
+        return Error{ErrorCode::invalid_params, "the object would leave the range of numbers",
+                     to ? "params.to" : "params.by", "move it by less"};
+    object = std::move(moved);
     objects_[*found] = to_collision_object(object, scene_.dimensions);
     return Done{};
 }

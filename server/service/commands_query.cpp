@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "proto/envelope.h"
@@ -42,10 +43,16 @@ void answer_status(CommandContext& context, const proto::SimStatus& params, Resp
 }
 
 void answer_events(CommandContext& context, const proto::EventsSince& params, Responder& responder) {
-    context.waiters.add(responder, after(params.timeout), [&context, params](Responder& waiting, bool is_late) {
-        const proto::EventsSinceReply reply = context.events.since(params);
-        if (!reply.events.empty() || is_late || params.timeout <= 0.0) waiting.reply(proto::to_json(reply));
-    });
+    // Each look begins where the last one ended: a long memory is not searched again at each event.
+    context.waiters.add(responder, after(params.timeout),
+                        [&context, query = params, lost = std::uint64_t{0}](Responder& waiting, bool is_late) mutable {
+                            proto::EventsSinceReply reply = context.events.since(query);
+                            lost += std::exchange(reply.lost, 0);
+                            query.seq = reply.last_seq;
+                            if (reply.events.empty() && !is_late && query.timeout > 0.0) return;
+                            reply.lost = lost;
+                            waiting.reply(proto::to_json(reply));
+                        });
 }
 
 void answer_job(CommandContext& context, const proto::JobWait& params, Responder& responder) {

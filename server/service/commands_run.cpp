@@ -1,5 +1,6 @@
 // sim.*, params.*, server.shutdown
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "proto/envelope.h"
 #include "proto/suggest.h"
 #include "server/service/commands.h"
+#include "server/service/limits.h"
 #include "server/service/post_mutation.h"
 
 namespace headrace::server {
@@ -54,6 +56,25 @@ void add_mutation(CommandTable& table, CommandContext& context, std::string_view
     });
 }
 
+// sim.pause and sim.cancel take effect at the end of the step under way. With millions of particles that is a while
+// off: then the answer does not wait for it, and says so.
+PendingReplies::Early answer_before_the_step_ends(const CommandContext& context) {
+    return {std::chrono::steady_clock::now() + kPromptAnswer, [&context](Responder& waiting) {
+                const proto::SimStatusReply status = context.board.read()->status;
+                const bool is_stepping = status.state == proto::SimState::running;
+                waiting.reply(proto::to_json(proto::Applied{
+                    status.step + (is_stepping ? 1 : 0), status.time + (is_stepping ? status.time_step : 0.0), true}));
+            }};
+}
+
+// A command that ends or holds what is under way.
+template <class Params>
+void add_prompt_mutation(CommandTable& table, CommandContext& context, std::string_view name, MethodRules rules) {
+    table.add<Params>(name, std::move(rules), [&context](Params params, Responder& responder) {
+        post_mutation(context, std::move(params), responder, answer_before_the_step_ends(context));
+    });
+}
+
 }  // namespace
 
 void add_run_commands(CommandTable& table, CommandContext& context) {
@@ -61,9 +82,9 @@ void add_run_commands(CommandTable& table, CommandContext& context) {
                                  {{ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
     add_mutation<proto::SimRun>(table, context, "sim.run",
                                 {{ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
-    add_mutation<proto::SimPause>(table, context, "sim.pause", {{ErrorCode::wrong_state, ErrorCode::busy}});
+    add_prompt_mutation<proto::SimPause>(table, context, "sim.pause", {{ErrorCode::wrong_state, ErrorCode::busy}});
     add_mutation<proto::SimResume>(table, context, "sim.resume", {{ErrorCode::wrong_state, ErrorCode::busy}});
-    add_mutation<proto::SimCancel>(table, context, "sim.cancel", {});
+    add_prompt_mutation<proto::SimCancel>(table, context, "sim.cancel", {});
     add_mutation<proto::SimReset>(table, context, "sim.reset",
                                   {{ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
 

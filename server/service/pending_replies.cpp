@@ -20,7 +20,7 @@ void answer_as_it_is(const proto::Result<proto::Reply>& result, Responder& respo
 
 }  // namespace
 
-std::optional<Token> PendingReplies::add(Responder& responder, Finish finish) {
+std::optional<Token> PendingReplies::add(Responder& responder, Finish finish, std::optional<Early> early) {
     if (entries_.size() >= kMaxPendingReplies) {
         responder.fail({ErrorCode::limit_exceeded,
                         std::to_string(kMaxPendingReplies) + " commands wait for an answer already", "",
@@ -28,14 +28,15 @@ std::optional<Token> PendingReplies::add(Responder& responder, Finish finish) {
         return std::nullopt;
     }
     const Token token = ++last_token_;
-    entries_.emplace(token, Entry{std::move(responder), finish ? std::move(finish) : Finish(answer_as_it_is)});
+    entries_.emplace(
+        token, Entry{std::move(responder), finish ? std::move(finish) : Finish(answer_as_it_is), std::move(early)});
     return token;
 }
 
 void PendingReplies::resolve(const Outcome& outcome) {
     auto node = entries_.extract(outcome.token);
     if (node.empty()) return;
-    auto& [responder, finish] = node.mapped();
+    auto& [responder, finish, early] = node.mapped();
     try {
         finish(outcome.result, responder);
     } catch (const std::exception& failure) {
@@ -43,8 +44,24 @@ void PendingReplies::resolve(const Outcome& outcome) {
     }
 }
 
+void PendingReplies::expire(Clock::time_point now) {
+    for (auto& [token, entry] : entries_) {
+        if (!entry.early || entry.early->deadline > now) continue;
+        entry.early->answer(entry.responder);
+        entry.early.reset();
+    }
+}
+
+std::optional<PendingReplies::Clock::time_point> PendingReplies::next_deadline() const {
+    std::optional<Clock::time_point> next;
+    for (const auto& [token, entry] : entries_)
+        if (entry.early && (!next || entry.early->deadline < *next)) next = entry.early->deadline;
+    return next;
+}
+
 void PendingReplies::refuse_all(const proto::Error& error) {
-    for (auto& [token, entry] : std::exchange(entries_, {})) entry.responder.fail(error);
+    for (auto& [token, entry] : std::exchange(entries_, {}))
+        if (entry.responder.is_open()) entry.responder.fail(error);
 }
 
 }  // namespace headrace::server

@@ -16,21 +16,26 @@ inline void record_applied(const CommandContext& context, const std::string& met
                            const proto::Json& reply) {
     const double time = reply.value("time", 0.0);  // [s]
     proto::Json command{{"method", method}, {"params", std::move(params)}};
-    command["step"] = reply.value("step", std::uint64_t{0});
+    // A run is recorded when it has ended: its step is the one at which it began.
+    command["step"] = reply.value("step", std::uint64_t{0}) - reply.value("steps", std::uint64_t{0});
     command["time"] = time;
     context.record_command(command.dump(-1, ' ', false, proto::Json::error_handler_t::replace), time);
 }
 
 template <class Params>
-void post_mutation(CommandContext& context, Params params, Responder& responder) {
+void post_mutation(CommandContext& context, Params params, Responder& responder,
+                   std::optional<PendingReplies::Early> early = {}) {
     const auto finish = [&context, method = responder.method(), json = proto::to_json(params)](
                             const proto::Result<proto::Reply>& result, Responder& waiting) {
-        if (!result) return waiting.fail(result.error());
+        if (!result) {
+            if (waiting.is_open()) waiting.fail(result.error());
+            return;
+        }
         const proto::Json reply = std::visit([](const auto& value) { return proto::to_json(value); }, *result);
         record_applied(context, method, json, reply);
-        waiting.reply(reply);
+        if (waiting.is_open()) waiting.reply(reply);
     };
-    if (const auto token = context.pending.add(responder, finish))
+    if (const auto token = context.pending.add(responder, finish, std::move(early)))
         context.to_simulation(*token, Mutation(std::move(params)));
 }
 

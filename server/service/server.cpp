@@ -168,10 +168,14 @@ struct Server::Impl {
 
     // ---- service thread ----
     void serve() {
-        try {
-            while (!stop_wanted) take_turn();
-        } catch (const std::exception& failure) {
-            log(LogLevel::error, std::string("the service ends: ") + failure.what());
+        while (!stop_wanted) {
+            try {
+                take_turn();
+            } catch (const std::exception& failure) {
+                // One request must not end the service of all.
+                log(LogLevel::error, std::string("service: ") + failure.what());
+                say("server.problem", std::string("service: ") + failure.what());
+            }
         }
         wind_up();
         ended_bell.ring();
@@ -179,7 +183,10 @@ struct Server::Impl {
 
     void take_turn() {
         const std::array descriptors{outbox.doorbell().fd(), events_bell.fd(), stop_bell.fd()};
-        socket->wait(descriptors, context.waiters.next_deadline());
+        auto deadline = context.waiters.next_deadline();
+        if (const auto early = context.pending.next_deadline(); early && (!deadline || *early < *deadline))
+            deadline = early;
+        socket->wait(descriptors, deadline);
         receive(kMessagesPerTurn,
                 [this](std::string_view text, ReplySink sink) { table.handle(text, std::move(sink)); });
         for (const Outcome& outcome : outbox.take()) context.pending.resolve(outcome);
@@ -189,6 +196,7 @@ struct Server::Impl {
             context.waiters.retry();
         }
         context.waiters.expire(std::chrono::steady_clock::now());
+        context.pending.expire(std::chrono::steady_clock::now());
     }
 
     void receive(std::size_t limit, const CommandSocket::OnRequest& on_request) {
@@ -211,6 +219,7 @@ struct Server::Impl {
         context.waiters.retry();
         context.waiters.refuse_all(refusal);
         simulation.stop();
+        for (const Outcome& outcome : outbox.take()) context.pending.resolve(outcome);  // recordings get their commands
         publisher.stop();
         for (const Outcome& outcome : outbox.take()) context.pending.resolve(outcome);
         context.pending.refuse_all(refusal);

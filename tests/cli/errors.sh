@@ -12,6 +12,21 @@ expect 2 'error usage \(--until\): .*' "$headrace" resume --until whenever
 expect 2 'error method_not_found .*' "$headrace" call sim.stepp
 expect 2 'error parse_error.*' "$headrace" call sim.step '{"steps":'
 expect 2 'error invalid_params \(params.steps\): .*' "$headrace" call sim.step '{"steps":"many"}'
+# before anything is simulated: nothing is left behind
+expect 2 'error usage \(--format\): did you mean "vtp"\?' "$headrace" run bowl --until 0.01 --out early --format vpt
+expect 2 'error usage \(velocty\): did you mean "velocity"\?' "$headrace" run bowl --until 0.01 --out early --fields velocty
+expect 2 'error usage \(--fields\): vtp files need the field position; .*' \
+    "$headrace" run bowl --until 0.01 --out early --fields id,density
+expect 2 'error usage \(--fields\): png files need the field velocity; .*' \
+    "$headrace" run bowl --until 0.01 --out early --format csv,png --fields id,position
+cat >blind.json <<'JSON'
+{"headrace_scene": 1, "name": "blind", "dimensions": 2, "model": "thesis", "spacing": 0.1,
+ "domain": {"min": [-1, -1], "max": [1, 1]}, "output": {"interval": 0.01, "fields": ["id", "velocity"]},
+ "fluids": [{"name": "drop", "shape": {"box": {"min": [0, 0], "max": [0.2, 0.2]}}}]}
+JSON
+expect 2 '(.*)error usage \(--fields\): vtp files need the field position; .*' \
+    "$headrace" run blind.json --until 0.01 --out early
+[ ! -e early ] || fail "a run that was refused left files"
 # 3: nobody answers
 expect 3 'error connection_failed: .*; start one: headraced &' "$headrace" --server "ipc://$work/nobody" status
 # 4: no such thing
@@ -29,7 +44,9 @@ expect 6 'error file_error \(.*nowhere/x.mcap\): .*' "$headrace" record nowhere/
 : >taken.mcap
 expect 6 'error file_error \(.*taken.mcap\): .*' "$headrace" record taken.mcap --for 0.1
 # 8: the time given has passed, here 0.05 s for a cube that has to fall first
-expect 8 'error timed_out: .*' "$headrace" resume --until at-rest --timeout 0.05
+expect 8 'error timed_out: .*; go on with: headrace resume --until at-rest' \
+    "$headrace" resume --until at-rest --timeout 0.05
+expect 8 'error timed_out: [^;]*' "$headrace" resume --until +10 --timeout 0.05
 
 # 7: fluid that flies out of a domain without walls
 cat >flight.json <<'JSON'
@@ -41,13 +58,18 @@ JSON
 expect 0 'flight: 8 particles, .*' "$headrace" load flight.json
 expect 7 'error faulted: left_domain: particle [0-9]+ .*' "$headrace" resume --until 10
 expect 5 'error wrong_state.*' "$headrace" step
+for where in '' --at-server; do # no run can come, so recording would never end
+    expect 7 'error faulted: left_domain: .*' "$headrace" record never.mcap $where
+    expect 7 'error faulted: left_domain: .*' "$headrace" record never.mcap $where --for 1
+done
+[ ! -e never.mcap ] || fail "a refused recording left a file"
 expect 7 '(.*)error faulted: left_domain: .*' "$headrace" run flight.json --until 10 --out "$work/flight"
 
 # 3 and 1: another protocol, and a server that breaks. A stand-in answers.
 python=$(find_python)
 if [ -z "$python" ]; then
-    echo "no Python with pyzmq here: another protocol and a broken server were not tried"
-    exit 0
+    echo "no Python with pyzmq here: another protocol and a broken server were not tried" >&2
+    exit 77
 fi
 cat >stand_in.py <<'PYTHON'
 import json, sys, zmq

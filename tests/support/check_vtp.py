@@ -57,6 +57,9 @@ def check_particles(file, time, points_wanted):
     expect(own_time is not None, f"{file} has no TimeValue")
     expect(own_time.GetValue(0) == time, f"{file} says {own_time.GetValue(0)} s, the collection {time} s")
 
+    radius = mesh.GetFieldData().GetArray("particle_radius")
+    expect(radius is not None and radius.GetValue(0) > 0, f"{file} has no particle_radius")
+
     arrays = arrays_of(mesh.GetPointData())
     expect("position" not in arrays, f"{file}: positions are the points, not an array")
     if "velocity" in arrays:

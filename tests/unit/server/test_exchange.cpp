@@ -53,14 +53,22 @@ TEST_CASE("JobBoard.RemembersTheLastWordOfEachJob") {
     proto::JobReply job;
     for (std::uint64_t number = 1; number <= server::JobBoard::kCapacity + 1; ++number) {
         job.job = number;
-        job.state = proto::JobState::running;
+        job.state = number == 3 ? proto::JobState::paused : proto::JobState::finished;
         board.write(job);
     }
     CHECK_FALSE(board.find(1).has_value());
     CHECK_FALSE(board.find(server::JobBoard::kCapacity + 2).has_value());
     job.job = 7;
-    job.state = proto::JobState::finished;
+    job.state = proto::JobState::cancelled;
     board.write(job);
-    CHECK(board.find(7)->state == proto::JobState::finished);
-    CHECK(board.find(8)->state == proto::JobState::running);
+    CHECK(board.find(7)->state == proto::JobState::cancelled);
+    CHECK(board.find(8)->state == proto::JobState::finished);
+    // However many jobs follow, one that is paused is not forgotten.
+    for (std::uint64_t number = 2'000; number < 4'000; ++number) {
+        job.job = number;
+        job.state = proto::JobState::finished;
+        board.write(job);
+    }
+    CHECK(board.find(3)->state == proto::JobState::paused);
+    CHECK_FALSE(board.find(8).has_value());
 }

@@ -129,6 +129,22 @@ TEST_CASE("VtpWriter.ArraysReadBackBitByBit") {
     CHECK(arrays.count("position") == 0);
 }
 
+// Staubach 2010, Eq. 3.5 with Table 3.1: (3 m / (4 pi rho_0))^(1/3), m = 0.02 kg, rho_0 = 998.29 kg/m^3.
+TEST_CASE("VtpWriter.FilesTellTheRadiusToDrawParticlesWith") {
+    TemporaryFolder folder;
+    WriterOptions options = options_in(folder);
+    options.scene.parameters["particle_mass"] = 0.02;
+    options.scene.parameters["rest_density"] = 998.29;
+    auto writer = make_writer("vtp", options);
+    REQUIRE((*writer)->write(small_frame(0).view(), {}).ok());
+
+    auto arrays = read_vtp(folder / "wave_000000.vtp");
+    CHECK(arrays["particle_radius"].type == "Float64");
+    const auto radius = arrays["particle_radius"].values<double>();
+    REQUIRE(radius.size() == 1);
+    CHECK(radius[0] == Approx(0.016848512140814474).epsilon(1e-14));  // rounding of a few operations
+}
+
 TEST_CASE("VtpWriter.FlatVectorsGetAThirdComponentZero") {
     TemporaryFolder folder;
     auto writer = make_writer("vtp", options_in(folder));
