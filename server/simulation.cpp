@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "server/at_rest.h"
+#include "server/fault_report.h"
 #include "server/job.h"
 #include "server/loader.h"
 #include "server/publish/frame_builder.h"
@@ -30,10 +31,6 @@ using proto::Result;
 using proto::SimState;
 
 namespace {
-
-std::string fault_name(solver::FaultKind kind) {
-    return kind == solver::FaultKind::non_finite ? "non_finite" : "left_domain";
-}
 
 const char* ended_message(proto::JobState state) {
     switch (state) {
@@ -108,7 +105,10 @@ struct Simulation::Impl {
         if (!job) return;                                  // paused by one of them
         apply_due_parameters();
         const solver::StepReport& report = run->step();
-        if (report.fault) return fault(*report.fault);
+        if (report.fault) {
+            capture_due();  // who asked for frames sees the state that faulted
+            return fault(report_of(*report.fault, place()));
+        }
         is_at_rest = watches_rest() && at_rest->update(*run);
         fire_scene_events();
         report_overdue_rest();
@@ -435,20 +435,16 @@ struct Simulation::Impl {
         for (const Token token : ended.waiting) outbox.put(token, Reply(*last_job));
     }
 
-    void fault(const solver::Fault& fault) {
+    // The run stops before garbage spreads; the state is kept for inspection, nobody waits in vain.
+    void fault(const proto::FaultReport& found) {
         is_faulted = true;
-        proto::FaultReport found{fault_name(fault.kind), fault.particle, fault.x,     fault.v,
-                                 run->step_number(),     run->time(),    fault.remedy};
         status.set_fault(found);
-        report("sim.faulted",
-               found.criterion + ": particle " + std::to_string(found.particle) + " in step " +
-                   std::to_string(found.step) + "; " + found.remedy,
+        report("sim.faulted", message_of(found),
                {{"criterion", found.criterion},
                 {"particle", static_cast<std::int64_t>(found.particle)},
                 {"remedy", found.remedy}});
         refuse_deferred(
             {ErrorCode::faulted, "the run has faulted before that step", "params.at_step", "sim.reset or scene.load"});
-        capture_due();
         end_all_jobs({proto::JobState::faulted, found.criterion + "; " + found.remedy});
     }
 
@@ -457,21 +453,11 @@ struct Simulation::Impl {
         if (paused) end_job(*std::exchange(paused, std::nullopt), end);
     }
 
-    // An exception in our own code: the state is kept for inspection, nobody waits in vain.
+    // An exception in our own code.
     void give_up(const std::string& what) {
-        if (!run || !job) {
-            report("server.problem", "simulation: " + what);
-            inbox.wait_until(Clock::now() + std::chrono::milliseconds(100));  // should it come again: no busy loop
-            return;
-        }
-        is_faulted = true;
-        const std::string remedy = "sim.reset or scene.load; report this as a bug";
-        status.set_fault({"internal_error", 0, {}, {}, run->step_number(), run->time(), what + "; " + remedy});
-        report("sim.faulted", "internal error: " + what,
-               {{"criterion", std::string("internal_error")}, {"remedy", remedy}});
-        refuse_deferred(
-            {ErrorCode::faulted, "the run has faulted before that step", "params.at_step", "sim.reset or scene.load"});
-        end_all_jobs({proto::JobState::faulted, "internal error: " + what});
+        if (run && job) return fault(report_of_internal_error(what, place()));
+        report("server.problem", "simulation: " + what);
+        inbox.wait_until(Clock::now() + std::chrono::milliseconds(100));  // should it come again: no busy loop
     }
 
     void say_goodbye() {

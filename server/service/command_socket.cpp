@@ -13,7 +13,7 @@ namespace headrace::server {
 namespace {
 
 // A slow reader's replies wait here before they are dropped; more than a client has reason to send ahead.
-constexpr int kHighWaterMark = 256;  // replies to one peer that does not read; each may be megabytes
+constexpr int kHighWaterMark = 4'096;  // replies to one peer that does not read: as many as may be pending
 constexpr int kHeartbeatInterval_ms = 5'000;
 constexpr int kHeartbeatTimeout_ms = 60'000;   // large transfers on the same line trip shorter ones
 constexpr std::uint64_t kControlIoThread = 1;  // bit 0; the publisher's sockets use the other I/O thread
