@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/publish/encode.h"
+#include "server/publish/report.h"
 
 namespace headrace::publish {
 
@@ -217,14 +218,7 @@ void LosslessStreams::fail(std::map<std::string, Stream>::iterator place, const 
 }
 
 void LosslessStreams::report(const std::string& type, const std::string& stream, const std::string& message) const {
-    const auto now = board_.read();
-    proto::Event event;
-    event.type = type;
-    event.step = now->status.step;
-    event.time = now->status.time;
-    event.message = message;
-    event.data["stream"] = stream;
-    events_.add(std::move(event));
+    publish::report(events_, board_, type, message, {{"stream", stream}});
 }
 
 }  // namespace headrace::publish

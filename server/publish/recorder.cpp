@@ -7,6 +7,7 @@
 #include "proto/messages_json.h"
 #include "proto/version.h"
 #include "server/publish/encode.h"
+#include "server/publish/report.h"
 
 namespace headrace::publish {
 
@@ -170,14 +171,7 @@ void Recorder::fail(Place place, const Error& error) {
 }
 
 void Recorder::report(const std::string& type, const std::string& recording, const std::string& message) const {
-    const auto now = board_.read();
-    proto::Event event;
-    event.type = type;
-    event.step = now->status.step;
-    event.time = now->status.time;
-    event.message = message;
-    event.data["recording"] = recording;
-    events_.add(std::move(event));
+    publish::report(events_, board_, type, message, {{"recording", recording}});
 }
 
 }  // namespace headrace::publish
