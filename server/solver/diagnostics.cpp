@@ -17,14 +17,15 @@ double speed_squared(const Particles& particles, std::size_t i) {
 }
 
 struct Sums {
-    double max_speed2{}, speed2{};  // [m^2/s^2]
-    double g_x{};                   // [m^2/s^2] sum of g.x
+    double max_speed2{};            // [m^2/s^2]
+    double m_speed2{};              // [J] sum of m v^2
+    double m_g_x{};                 // [J] sum of m g.x
     double rho{}, max_rho{};        // [kg/m^3]
 };
 
 }  // namespace
 
-Diagnostics compute_diagnostics(const Particles& particles, double particle_mass, const Vec3& gravity) {
+Diagnostics compute_diagnostics(const Particles& particles, const Vec3& gravity) {
     const Sums sums = parallel_reduce(
         particles.size(), Sums{},
         [&](std::size_t begin, std::size_t end) {
@@ -32,19 +33,19 @@ Diagnostics compute_diagnostics(const Particles& particles, double particle_mass
             for (std::size_t i = begin; i < end; ++i) {
                 const double speed2 = speed_squared(particles, i);
                 block.max_speed2 = std::max(block.max_speed2, speed2);
-                block.speed2 += speed2;
-                for (int k = 0; k < particles.dimensions; ++k) block.g_x += gravity[k] * particles.x[k][i];
+                block.m_speed2 += particles.m[i] * speed2;
+                for (int k = 0; k < particles.dimensions; ++k) block.m_g_x += particles.m[i] * gravity[k] * particles.x[k][i];
                 block.rho += particles.rho[i];
                 block.max_rho = std::max(block.max_rho, particles.rho[i]);
             }
             return block;
         },
         [](const Sums& a, const Sums& b) {
-            return Sums{std::max(a.max_speed2, b.max_speed2), a.speed2 + b.speed2, a.g_x + b.g_x, a.rho + b.rho,
+            return Sums{std::max(a.max_speed2, b.max_speed2), a.m_speed2 + b.m_speed2, a.m_g_x + b.m_g_x, a.rho + b.rho,
                         std::max(a.max_rho, b.max_rho)};
         });
     const double count = static_cast<double>(std::max<std::size_t>(particles.size(), 1));
-    return {std::sqrt(sums.max_speed2), 0.5 * particle_mass * sums.speed2, -particle_mass * sums.g_x, sums.rho / count,
+    return {std::sqrt(sums.max_speed2), 0.5 * sums.m_speed2, -sums.m_g_x, sums.rho / count,
             sums.max_rho};
 }
 
@@ -68,7 +69,8 @@ std::uint64_t compute_state_hash(const Particles& particles) {
             std::uint64_t block = 0;
             for (std::size_t i = begin; i < end; ++i) {
                 std::uint64_t s = particles.id[i];
-                for (const VectorField* field : {&particles.x, &particles.v_half}) {
+                const VectorField& carried = particles.v_half[0].empty() ? particles.v : particles.v_half;
+                for (const VectorField* field : {&particles.x, &carried}) {
                     for (int k = 0; k < particles.dimensions; ++k)
                         s = mix(s ^ std::bit_cast<std::uint64_t>((*field)[k][i]));
                 }

@@ -16,13 +16,14 @@ struct Diagnostics {
     double max_density{};       // [kg/m^3]
 };
 
-Diagnostics compute_diagnostics(const Particles& particles, double particle_mass, const Vec3& gravity);
+Diagnostics compute_diagnostics(const Particles& particles, const Vec3& gravity);
 
 // Share (0..1) of particles with |v| < speed [m/s].
 double compute_slow_share(const Particles& particles, double speed);
 
-// State hash: sum modulo 2^64 over the particles of a hash of the words (id, x, v_half), doubles taken as their 64
-// bits; independent of storage order, so it equals the hash taken in id order. Definition in proto/README.md:
+// State hash: sum modulo 2^64 over the particles of a hash of the words (id, x, v_half), v for models without leap
+// velocity, doubles taken as their 64 bits; independent of storage order, so it equals the hash taken in id order.
+// Definition in proto/README.md:
 //   s = id;  for each word w of x[0..d-1], v_half[0..d-1]:  s = mix(s ^ w);   H += mix(s)
 //   mix(z) is SplitMix64's finaliser: z += 0x9e3779b97f4a7c15; z = (z ^ z>>30) * 0xbf58476d1ce4e5b9;
 //   z = (z ^ z>>27) * 0x94d049bb133111eb; z ^ z>>31

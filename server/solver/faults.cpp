@@ -18,7 +18,8 @@ struct Finding {
 
 bool is_finite(const Particles& particles, std::size_t i) {
     for (int k = 0; k < particles.dimensions; ++k) {
-        if (!std::isfinite(particles.x[k][i]) || !std::isfinite(particles.v_half[k][i]) ||
+        if (!std::isfinite(particles.x[k][i]) ||
+            (!particles.v_half[k].empty() && !std::isfinite(particles.v_half[k][i])) ||
             !std::isfinite(particles.v[k][i])) {
             return false;
         }

@@ -1,9 +1,10 @@
 #include "server/solver/neighbours.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 #include "server/solver/parallel.h"
-
 namespace headrace::solver {
 namespace {
 
@@ -24,28 +25,56 @@ std::int64_t cell_coordinate(double x, double inv_side) {
 
 }  // namespace
 
-void CellGrid::sort(Particles& particles, double support) {
-    dimensions_ = particles.dimensions;
-    inv_side_ = 1.0 / (support * (1.0 + kCellMargin));
-    order_.resize(particles.size());
-    measure(particles);
-    choose_layout(particles.size());
+void CellGrid::build(const VectorField& x, const std::vector<Index>& id, int dimensions, double support,
+                     const Domain* domain) {
+    dimensions_ = dimensions;
+    divide(support, domain);
+    order_.resize(id.size());
+    measure(x, id.size());
+    choose_layout(id.size());
     if (is_dense_) {
-        order_dense(particles);
+        order_dense(x, id);
     } else {
-        order_sparse(particles);
+        order_sparse(x, id);
     }
-    permute(particles);
 }
 
-CellGrid::Coordinates CellGrid::coordinates(const Particles& particles, std::size_t i) const {
+void CellGrid::sort(Particles& particles, double support) {
+    build(particles.x, particles.id, particles.dimensions, support);
+    permute(particles.id, scratch_id_);
+    for (VectorField* field : {&particles.x, &particles.v_half, &particles.v}) {
+        for (int axis = 0; axis < dimensions_; ++axis) permute((*field)[axis], scratch_);
+    }
+}
+
+// Cells of side >= support; along a periodic axis as many as fit.
+void CellGrid::divide(double support, const Domain* domain) {
+    const double side = support * (1.0 + kCellMargin);
+    for (int axis = 0; axis < 3; ++axis) {
+        inv_side_[axis] = 1.0 / side;
+        origin_[axis] = 0.0;
+        period_[axis] = 0;
+        if (domain == nullptr || !domain->periodic[axis] || axis >= dimensions_) continue;
+        const double length = domain->max[axis] - domain->min[axis];
+        assert(fits_period(length, support));
+        period_[axis] = static_cast<std::int64_t>(length / side);
+        inv_side_[axis] = static_cast<double>(period_[axis]) / length;
+        origin_[axis] = domain->min[axis];
+    }
+}
+
+CellGrid::Coordinates CellGrid::find_coordinates(const VectorField& x, std::size_t i) const {
     Coordinates cell{};
-    for (int axis = 0; axis < dimensions_; ++axis) cell[2 - axis] = cell_coordinate(particles.x[axis][i], inv_side_);
+    for (int axis = 0; axis < dimensions_; ++axis) {
+        std::int64_t& c = cell[2 - axis];
+        c = cell_coordinate(x[axis][i] - origin_[axis], inv_side_[axis]);
+        if (period_[axis] > 0) c = std::clamp<std::int64_t>(c, 0, period_[axis] - 1);  // rounding at the very end
+    }
     return cell;
 }
 
 // The box of cells the particles occupy.
-void CellGrid::measure(const Particles& particles) {
+void CellGrid::measure(const VectorField& x, std::size_t count) {
     struct Range {
         Coordinates lowest, highest;
     };
@@ -58,25 +87,24 @@ void CellGrid::measure(const Particles& particles) {
         return a;
     };
     const Range range = parallel_reduce(
-        particles.size(), none,
+        count, none,
         [&](std::size_t begin, std::size_t end) {
             Range block = none;
             for (std::size_t i = begin; i < end; ++i) {
-                const Coordinates cell = coordinates(particles, i);
+                const Coordinates cell = find_coordinates(x, i);
                 block = join(block, {cell, cell});
             }
             return block;
         },
         join);
-    lowest_ = particles.size() > 0 ? range.lowest : Coordinates{};
-    highest_ = particles.size() > 0 ? range.highest : Coordinates{};
+    lowest_ = count > 0 ? range.lowest : Coordinates{};
+    highest_ = count > 0 ? range.highest : Coordinates{};
 }
 
 // Products in floating point, since they may exceed any integer.
 void CellGrid::choose_layout(std::size_t count) {
     std::array<double, 3> width{};
-    for (int k = 0; k < 3; ++k) width[k] = static_cast<double>(highest_[k] - lowest_[k]) + 3.0;
-    if (dimensions_ == 2) width[0] = 1.0;
+    for (int k = 0; k < 3; ++k) width[k] = static_cast<double>(highest_[k] - lowest_[k]) + 1.0;
     const std::size_t allowed = std::max(kDenseMinimum, kDenseCells * count);
     is_dense_ = width[0] * width[1] * width[2] <= static_cast<double>(allowed);
     if (!is_dense_) return;
@@ -86,17 +114,16 @@ void CellGrid::choose_layout(std::size_t count) {
 }
 
 // Counting sort. Ranks within a cell are handed out in any order, then ids decide.
-void CellGrid::order_dense(const Particles& particles) {
-    const std::size_t count = particles.size();
+void CellGrid::order_dense(const VectorField& x, const std::vector<Index>& id) {
+    const std::size_t count = id.size();
     number_.resize(count);
     rank_.resize(count);
-    const std::int64_t border_z = dimensions_ == 3 ? 1 : 0;
     parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Coordinates cell = coordinates(particles, i);
-            const std::size_t number = layer_ * static_cast<std::size_t>(cell[0] - lowest_[0] + border_z) +
-                                       row_ * static_cast<std::size_t>(cell[1] - lowest_[1] + 1) +
-                                       static_cast<std::size_t>(cell[2] - lowest_[2] + 1);
+            const Coordinates cell = find_coordinates(x, i);
+            const std::size_t number = layer_ * static_cast<std::size_t>(cell[0] - lowest_[0]) +
+                                       row_ * static_cast<std::size_t>(cell[1] - lowest_[1]) +
+                                       static_cast<std::size_t>(cell[2] - lowest_[2]);
             number_[i] = static_cast<Index>(number);
             Index rank;
 #pragma omp atomic capture
@@ -107,14 +134,16 @@ void CellGrid::order_dense(const Particles& particles) {
 
     // Counts become starts; occupied cells are noted on the way.
     first_.clear();
-    cell_number_.clear();
+    cell_coordinates_.clear();
     Index sum = 0;
     for (std::size_t cell = 0; cell < start_.size(); ++cell) {
         const Index in_cell = start_[cell];
         start_[cell] = sum;
         if (in_cell == 0) continue;
         first_.push_back(sum);
-        cell_number_.push_back(static_cast<Index>(cell));
+        cell_coordinates_.push_back({lowest_[0] + static_cast<std::int64_t>(cell / layer_),
+                                     lowest_[1] + static_cast<std::int64_t>(cell % layer_ / row_),
+                                     lowest_[2] + static_cast<std::int64_t>(cell % row_)});
         sum += in_cell;
     }
     first_.push_back(sum);
@@ -123,7 +152,7 @@ void CellGrid::order_dense(const Particles& particles) {
         for (std::size_t i = begin; i < end; ++i) order_[start_[number_[i]] + rank_[i]] = static_cast<Index>(i);
     });
     parallel_for(cells(), kParticleBlock / 4, [&](std::size_t begin, std::size_t end, int) {
-        const auto by_id = [&](Index a, Index b) { return particles.id[a] < particles.id[b]; };
+        const auto by_id = [&](Index a, Index b) { return id[a] < id[b]; };
         for (std::size_t c = begin; c < end; ++c) {
             const auto from = order_.begin() + first_[c], to = order_.begin() + first_[c + 1];
             if (!std::is_sorted(from, to, by_id)) std::sort(from, to, by_id);
@@ -131,16 +160,15 @@ void CellGrid::order_dense(const Particles& particles) {
     });
 }
 
-void CellGrid::order_sparse(const Particles& particles) {
-    const std::size_t count = particles.size();
+void CellGrid::order_sparse(const VectorField& x, const std::vector<Index>& id) {
+    const std::size_t count = id.size();
     std::vector<Coordinates> cell_of(count);
     for (std::size_t i = 0; i < count; ++i) {
-        cell_of[i] = coordinates(particles, i);
+        cell_of[i] = find_coordinates(x, i);
         order_[i] = static_cast<Index>(i);
     }
-    std::sort(order_.begin(), order_.end(), [&](Index a, Index b) {
-        return cell_of[a] != cell_of[b] ? cell_of[a] < cell_of[b] : particles.id[a] < particles.id[b];
-    });
+    std::sort(order_.begin(), order_.end(),
+              [&](Index a, Index b) { return cell_of[a] != cell_of[b] ? cell_of[a] < cell_of[b] : id[a] < id[b]; });
     first_.clear();
     cell_coordinates_.clear();
     for (std::size_t slot = 0; slot < count; ++slot) {
@@ -152,60 +180,55 @@ void CellGrid::order_sparse(const Particles& particles) {
     first_.push_back(static_cast<Index>(count));
 }
 
-void CellGrid::permute(Particles& particles) {
-    const std::size_t count = order_.size();
-    const std::array<VectorField*, 3> fields{&particles.x, &particles.v_half, &particles.v};
-    scratch_id_.resize(count);
-    for (VectorField& scratch : scratch_) {
-        for (int axis = 0; axis < dimensions_; ++axis) scratch[axis].resize(count);
+// Particles of the cells x_first..x_last of a row: one run, since x is fastest.
+Run CellGrid::find_run(std::int64_t z, std::int64_t y, std::int64_t x_first, std::int64_t x_last) const {
+    if (z < lowest_[0] || z > highest_[0] || y < lowest_[1] || y > highest_[1]) return {};
+    x_first = std::max(x_first, lowest_[2]);
+    x_last = std::min(x_last, highest_[2]);
+    if (x_first > x_last) return {};
+    if (is_dense_) {
+        const std::size_t row =
+            layer_ * static_cast<std::size_t>(z - lowest_[0]) + row_ * static_cast<std::size_t>(y - lowest_[1]);
+        return {start_[row + static_cast<std::size_t>(x_first - lowest_[2])],
+                start_[row + static_cast<std::size_t>(x_last - lowest_[2]) + 1],
+                {}};
     }
-    parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) scratch_id_[i] = particles.id[order_[i]];
-        for (std::size_t f = 0; f < fields.size(); ++f) {
-            for (int axis = 0; axis < dimensions_; ++axis) {
-                const double* from = (*fields[f])[axis].data();
-                double* to = scratch_[f][axis].data();
-                for (std::size_t i = begin; i < end; ++i) to[i] = from[order_[i]];
-            }
-        }
-    });
-    particles.id.swap(scratch_id_);
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-        for (int axis = 0; axis < dimensions_; ++axis) (*fields[f])[axis].swap(scratch_[f][axis]);
-    }
-}
-
-Neighbourhood CellGrid::around_dense(std::size_t c) const {
-    Neighbourhood near;
-    const std::size_t here = cell_number_[c];
-    const int layers = dimensions_ == 3 ? 1 : 0;
-    for (int dz = -layers; dz <= layers; ++dz) {
-        for (int dy = -1; dy <= 1; ++dy) {
-            const std::size_t middle = here + dz * layer_ + dy * row_;
-            const Run run{start_[middle - 1], start_[middle + 2]};
-            if (run.begin == run.end) continue;
-            near.run[near.runs++] = run;
-            near.particles += run.end - run.begin;
-        }
-    }
-    return near;
-}
-
-Neighbourhood CellGrid::around_sparse(std::size_t c) const {
-    Neighbourhood near;
-    const Coordinates here = cell_coordinates_[c];
-    const int layers = dimensions_ == 3 ? 1 : 0;
     const auto first_not_before = [&](const Coordinates& cell) {
         const auto found = std::lower_bound(cell_coordinates_.begin(), cell_coordinates_.end(), cell);
         return first_[static_cast<std::size_t>(found - cell_coordinates_.begin())];
     };
+    return {first_not_before({z, y, x_first}), first_not_before({z, y, x_last + 1}), {}};
+}
+
+Neighbourhood CellGrid::around(const Coordinates& here) const {
+    Neighbourhood near;
+    if (cells() == 0) return near;
+    // The coordinate inside the period, and by how many periods the particles there are to be displaced.
+    const auto wrap = [&](int axis, std::int64_t& c) -> signed char {
+        if (period_[axis] == 0) return 0;
+        if (c < 0) return c += period_[axis], static_cast<signed char>(-1);
+        if (c >= period_[axis]) return c -= period_[axis], static_cast<signed char>(1);
+        return 0;
+    };
+    const auto add = [&](Run run, const std::array<signed char, 3>& image) {
+        if (run.begin == run.end) return;
+        run.image = image;
+        near.run[near.runs++] = run;
+        near.particles += run.end - run.begin;
+    };
+    const int layers = dimensions_ == 3 ? 1 : 0;
     for (int dz = -layers; dz <= layers; ++dz) {
+        std::int64_t z = here[0] + dz;
+        const signed char image_z = wrap(2, z);
         for (int dy = -1; dy <= 1; ++dy) {
-            const Run run{first_not_before({here[0] + dz, here[1] + dy, here[2] - 1}),
-                          first_not_before({here[0] + dz, here[1] + dy, here[2] + 2})};
-            if (run.begin == run.end) continue;
-            near.run[near.runs++] = run;
-            near.particles += run.end - run.begin;
+            std::int64_t y = here[1] + dy;
+            const signed char image_y = wrap(1, y);
+            const std::int64_t x = here[2], n = period_[0];
+            if (n > 0 && x == 0) add(find_run(z, y, n - 1, n - 1), {-1, image_y, image_z});
+            const std::int64_t x_first = n > 0 ? std::max<std::int64_t>(x - 1, 0) : x - 1;
+            const std::int64_t x_last = n > 0 ? std::min(x + 1, n - 1) : x + 1;
+            add(find_run(z, y, x_first, x_last), {0, image_y, image_z});
+            if (n > 0 && x == n - 1) add(find_run(z, y, 0, 0), {1, image_y, image_z});
         }
     }
     return near;

@@ -7,6 +7,7 @@ void Particles::resize(std::size_t count) {
     for (VectorField* field : {&x, &v_half, &v, &a}) {
         for (int axis = 0; axis < 3; ++axis) (*field)[axis].resize(axis < dimensions ? count : 0);
     }
+    m.resize(count);
     rho.resize(count);
     p.resize(count);
 }

@@ -20,9 +20,10 @@ struct Particles {
     std::vector<Index> id;  // name of the particle in slot i; set when the scene is built, moves with it when sorted
 
     VectorField x;            // [m]      position; integrator, collision
-    VectorField v_half;       // [m/s]    leap velocity at t - dt/2 (2.33), the carried state; integrator, collision
+    VectorField v_half;       // [m/s]    leap velocity at t - dt/2 (2.33), carried by leap-frog models; else empty
     VectorField v;            // [m/s]    velocity of the step just done (2.36); integrator
     VectorField a;            // [m/s^2]  acceleration of the step just done; model
+    std::vector<double> m;    // [kg]     mass (2D: kg/m); model, when it is initialised
     std::vector<double> rho;  // [kg/m^3] density of the step just done; model
     std::vector<double> p;    // [Pa]     pressure of the step just done; model
 

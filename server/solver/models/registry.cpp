@@ -4,6 +4,8 @@
 
 #include "server/solver/models/thesis.h"
 #include "server/solver/models/thesis_parameters.h"
+#include "server/solver/models/wcsph/parameters.h"
+#include "server/solver/models/wcsph/wcsph.h"
 
 namespace headrace::solver {
 namespace {
@@ -16,6 +18,7 @@ struct Entry {
 
 constexpr Entry kModels[] = {
     {"thesis", thesis_parameter_table, make_thesis},
+    {"wcsph", wcsph_parameter_table, make_wcsph},
 };
 
 const Entry& find_model(std::string_view name) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "server/solver/boundaries/collider.h"
 #include "server/solver/eos.h"
@@ -40,6 +41,7 @@ class Thesis final : public Model {
     StepReport initialise(Particles& particles, const Surroundings& surroundings) override {
         step_ = 0;
         dt_before_ = parameters_.time_step;
+        std::fill(particles.m.begin(), particles.m.end(), parameters_.particle_mass);
         sort(particles);
         compute_density(particles);
         compute_pressure(particles);
@@ -51,6 +53,8 @@ class Thesis final : public Model {
     // Staubach 2010, section 3.3. Velocity enters the viscosity as formed in the step before (2.36 of then), density
     // and pressure left behind are those at the positions before the move.
     StepReport step(Particles& particles, const Surroundings& surroundings) override {
+        if (std::exchange(has_new_mass_, false))
+            std::fill(particles.m.begin(), particles.m.end(), parameters_.particle_mass);
         timed(kSort, [&] { sort(particles); });
         timed(kDensity, [&] { compute_density(particles); });
         timed(kPressure, [&] { compute_pressure(particles); });
@@ -65,6 +69,8 @@ class Thesis final : public Model {
     double time_step() const override { return parameters_.time_step; }
     std::string_view time_step_limit() const override { return "fixed"; }
     double particle_mass() const override { return parameters_.particle_mass; }
+    double rest_density() const override { return parameters_.rest_density; }
+    double support_radius() const override { return parameters_.support_radius; }
     Vec3 gravity() const override { return parameters_.gravity; }
     const std::vector<ParameterInfo>& parameter_table() const override { return table_; }
     ParameterMap parameters() const override { return to_parameter_map(parameters_); }
@@ -73,10 +79,27 @@ class Thesis final : public Model {
         if (auto error = check_parameters(table_, values)) return error;
         for (const auto& [key, value] : values) overrides_[key] = value;
         use_overrides();
+        has_new_mass_ = true;
         return std::nullopt;
     }
 
     std::vector<Stage> plan(const Surroundings& surroundings) const override;
+
+    std::optional<std::string> refuse_object(const CollisionObject& object) const override {
+        if (object.motion) return "the thesis model cannot move objects by a prescribed motion; use model wcsph";
+        if (object.slip != Slip::by_model) return "the thesis model has its own wall response; leave out slip";
+        if (std::holds_alternative<Box>(object.shape) || std::holds_alternative<Sphere>(object.shape)) return {};
+        return "the thesis model knows boxes and spheres only; use model wcsph";
+    }
+
+    std::optional<std::string> refuse_domain(const Domain& domain) const override {
+        if (domain.has_periodic_axis()) return "the thesis model has no periodic axes; use model wcsph";
+        return {};
+    }
+
+    std::optional<std::string> refuse_body_force() const override {
+        return "the thesis model knows gravity only; use model wcsph";
+    }
 
   private:
     void use_overrides() {
@@ -170,7 +193,7 @@ class Thesis final : public Model {
     }
 
     StepReport check(const Particles& particles, const Surroundings& surroundings) const {
-        Inspection found = inspect(particles, surroundings.domain);
+        Inspection found = solver::inspect(particles, surroundings.domain);
         if (found.fault) found.fault->remedy = make_remedy(found, surroundings);
         return {parameters_.time_step, found.max_speed, std::move(found.fault)};
     }
@@ -186,6 +209,7 @@ class Thesis final : public Model {
     DensitySum density_sum_;
     ForceSum force_sum_{};
 
+    bool has_new_mass_{false};
     std::uint64_t step_{0};
     double dt_before_{};  // [s] step by which the carried leap velocity is half behind
     CellGrid grid_;

@@ -1,0 +1,26 @@
+// Artificial viscosity: damps what the particles cannot resolve.
+//
+//   a_i = alpha h c0 (rho0/rho_i) sum_j pi_ij grad_i W_ij V_j
+//   pi_ij = v_ij . x_ij/r^2                                      Monaghan 1992, as in Antuono et al. 2010, CPC 181, 532
+//   pi_ij = (v_ij . x_ij - x_ij . S_ij x_ij)/r^2                 reconstructed, S_ij = (S_i + S_j)/2
+//
+// with S the strain rate from corrected gradients. The reconstructed form leaves out what a linear velocity field
+// explains: it damps the motion of particle against particle and not the flow. For separating pairs as well, so that
+// it is linear, and symmetric, so that momentum is kept. Pairs with walls are left out.
+#pragma once
+
+#include "server/solver/pair.h"
+#include "server/solver/symmetric.h"
+
+namespace headrace::solver {
+
+// pi_ij V_j F, to be multiplied by x_ij: finite at r = 0, where the approach vanishes with r^2. Monaghan's form:
+// mean_strain = 0.
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE T approach_factor(const Pair<D, T>& pair, const T& F, const VectorOf<D, T>& v_ij,
+                                         const Symmetric<D, T>& mean_strain) {
+    const T approach = dot<D, T>(v_ij, pair.x_ij) - dot<D, T>(pair.x_ij, mean_strain * pair.x_ij);
+    return pair.V_j * F * approach / maximum(pair.r2, splat<T>(1e-200));
+}
+
+}  // namespace headrace::solver

@@ -1,0 +1,34 @@
+// Diffusion of the density deviation, which keeps the pressure smooth:
+//
+//   D_i = xi h c0 sum_j psi_ij . grad_i W_ij V_j
+//   psi_ij = 2 (delta_j - delta_i) x_ji/r^2                                  Molteni & Colagrossi 2009, CPC 180, 861
+//   psi_ij = 2 (delta_j - delta_i - delta^H_ij) x_ji/r^2                     Fourtakas et al. 2019, Comput. Fluids 190
+//   psi_ij = 2 (delta_j - delta_i) x_ji/r^2 - (<grad delta>_i + <grad delta>_j)   Antuono et al. 2010, CPC 181, 532
+//
+// with x_ji = x_j - x_i, delta^H_ij = g . x_ji/c0^2 the part that hydrostatics explains (linear state equation), and
+// <grad delta> the corrected gradient. The first disturbs still water under gravity and every free surface; it is
+// here for comparison. Pairs with walls are left out.
+#pragma once
+
+#include "server/solver/pair.h"
+
+namespace headrace::solver {
+
+enum class DensityDiffusion { none, molteni_colagrossi, fourtakas, antuono };
+
+inline constexpr double kUsualDiffusion = 0.1;  // xi, as the three sources use it
+
+// psi . grad W V_j for the first two; delta_H = 0 for Molteni & Colagrossi. x_ji . grad_i W = -F r^2.
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE T plain_diffusion(const Pair<D, T>& pair, const T& F, const T& delta_ji, const T& delta_H) {
+    return -2.0 * pair.V_j * F * (delta_ji - delta_H);
+}
+
+// The same for Antuono: sum_grad = <grad delta>_i + <grad delta>_j.
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE T antuono_diffusion(const Pair<D, T>& pair, const T& F, const T& delta_ji,
+                                           const VectorOf<D, T>& sum_grad) {
+    return -pair.V_j * F * (2.0 * delta_ji + dot<D, T>(sum_grad, pair.x_ij));
+}
+
+}  // namespace headrace::solver

@@ -1,0 +1,62 @@
+// Acceleration by pressure, in two forms of the corrected gradient.
+//
+//   adjoint      a_i = -(1/rho_i) sum_j V_j (p_i B_i + p_j B_j) grad_i W_ij
+//   difference   a_i = -(1/rho_i) sum_j V_j (p_j - p_i) B_i grad_i W_ij
+//
+// The adjoint form is minus the transpose of the divergence in continuity.h: the pair exchanges kinetic and internal
+// energy without loss and conserves momentum (Bonet & Lok 1999, CMAME 180, 97), which a free surface needs. The
+// difference form is exact for linear pressure, and does not conserve momentum: for confined flow only.
+//
+// Tension instability: where p_i < 0 inside the fluid the adjoint form takes (p_j B_j - p_i B_i), which removes the
+// attraction of the pair's mean (Sun et al. 2018, Comput. Phys. Commun. 224, 63).
+#pragma once
+
+#include "server/solver/pair.h"
+#include "server/solver/symmetric.h"
+
+namespace headrace::solver {
+
+enum class PressureGradient { automatic, difference, adjoint, plain };
+
+// Sums over the neighbours from which both forms follow.
+template <int D, class T>
+struct PressureSums {
+    VectorOf<D, T> grad_1{};   // sum V_j grad W
+    VectorOf<D, T> pB_grad{};  // adjoint: sum V_j p_j B_j grad W; difference: sum V_j p_j grad W
+};
+
+// grad = V_j grad_i W_ij
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE void accumulate_adjoint(const VectorOf<D, T>& grad, const Symmetric<D, T>& pB_j,
+                                               PressureSums<D, T>& sums) {
+    add_to<D, T>(sums.grad_1, grad);
+    add_to<D, T>(sums.pB_grad, pB_j * grad);
+}
+
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE void accumulate_difference(const VectorOf<D, T>& grad, const T& p_j, PressureSums<D, T>& sums) {
+    add_to<D, T>(sums.grad_1, grad);
+    add_to<D, T>(sums.pB_grad, scaled<D, T>(p_j, grad));
+}
+
+// sign: +1, or -1 where tension is controlled.
+template <int D>
+std::array<double, D> adjoint_acceleration(const PressureSums<D, double>& sums, const Symmetric<D>& pB_i, double sign,
+                                           double rho_i) {
+    const std::array<double, D> own = pB_i * sums.grad_1;
+    std::array<double, D> a;
+    for (int k = 0; k < D; ++k) a[k] = -(sign * own[k] + sums.pB_grad[k]) / rho_i;
+    return a;
+}
+
+template <int D>
+std::array<double, D> difference_acceleration(const PressureSums<D, double>& sums, double p_i, const Symmetric<D>& B_i,
+                                              double rho_i) {
+    std::array<double, D> difference;
+    for (int k = 0; k < D; ++k) difference[k] = sums.pB_grad[k] - p_i * sums.grad_1[k];
+    std::array<double, D> a = B_i * difference;
+    for (double& component : a) component *= -1.0 / rho_i;
+    return a;
+}
+
+}  // namespace headrace::solver

@@ -1,0 +1,41 @@
+// One pair of particles, or eight pairs side by side: what every term of the accurate models starts from.
+// T: double or Lanes. Index i is the particle that sums, j its neighbour.
+#pragma once
+
+#include <array>
+
+#include "server/solver/lanes.h"
+
+namespace headrace::solver {
+
+template <int D, class T>
+using VectorOf = std::array<T, D>;
+
+template <int D, class T>
+struct Pair {
+    VectorOf<D, T> x_ij;  // [m] x_i - x_j
+    T r2;                 // [m^2]
+    T r;                  // [m]
+    T V_j;                // [m^3] (2D: m^2); 0 where the pair does not interact
+};
+
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE T dot(const VectorOf<D, T>& a, const VectorOf<D, T>& b) {
+    T sum = a[0] * b[0];
+    for (int k = 1; k < D; ++k) sum += a[k] * b[k];
+    return sum;
+}
+
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE VectorOf<D, T> scaled(const T& factor, const VectorOf<D, T>& a) {
+    VectorOf<D, T> product;
+    for (int k = 0; k < D; ++k) product[k] = factor * a[k];
+    return product;
+}
+
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE void add_to(VectorOf<D, T>& sum, const VectorOf<D, T>& a) {
+    for (int k = 0; k < D; ++k) sum[k] += a[k];
+}
+
+}  // namespace headrace::solver
