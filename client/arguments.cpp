@@ -112,11 +112,19 @@ proto::Result<proto::RunUntil> parse_until(std::string_view word) {
         until.step = *step;
     else if (const auto steps = count_after("steps="))
         until.steps = *steps;
-    else if (const auto seconds = parse_seconds(word))
+    else if (const std::size_t sign = word.find_first_of("<>"); sign != std::string_view::npos && sign > 0) {
+        const auto value = parse_number(word.substr(sign + 1));
+        if (!value)
+            return usage_error(quoted(word) + " compares a probe with no number", "--until", "such as 'gauge>0.3'");
+        until.probe.emplace();
+        until.probe->probe = word.substr(0, sign);
+        (word[sign] == '>' ? until.probe->above : until.probe->below) = *value;
+    } else if (const auto seconds = parse_seconds(word))
         (word.starts_with('+') ? until.duration : until.time) = *seconds;
     else
-        return usage_error(quoted(word) + " is no end of a run", "--until",
-                           "at-rest, 2 (t = 2 s), +2 (2 s from now), step=400 or steps=400");
+        return usage_error(
+            quoted(word) + " is no end of a run", "--until",
+            "at-rest, 2 (t = 2 s), +2 (2 s from now), step=400, steps=400, or a probe's value: 'gauge>0.3'");
     return until;
 }
 

@@ -29,7 +29,8 @@ proto::ParameterValue parse_parameter_value(std::string_view word);
 // "name=value"
 proto::Result<proto::Parameters> parse_assignments(const std::vector<std::string>& words);
 
-// "at-rest", "2" (t = 2 s), "+2" (2 s from now), "step=400" (absolute), "steps=400" (from now).
+// "at-rest", "2" (t = 2 s), "+2" (2 s from now), "step=400" (absolute), "steps=400" (from now), "gauge>0.3" and
+// "tank.fx<-10" (a probe's value).
 proto::Result<proto::RunUntil> parse_until(std::string_view word);
 
 // "velocity,density"

@@ -52,6 +52,7 @@ int run_command_line(int argc, char** argv) {
     add_run_commands(app, line);
     add_parameter_commands(app, line);
     add_object_commands(app, line);
+    add_probe_commands(app, line);
     add_record_command(app, line);
     add_file_commands(app, line);
     add_raw_commands(app, line);

@@ -33,6 +33,7 @@ void add_scene_commands(CLI::App& app, CommandLine& line);
 void add_run_commands(CLI::App& app, CommandLine& line);
 void add_parameter_commands(CLI::App& app, CommandLine& line);
 void add_object_commands(CLI::App& app, CommandLine& line);
+void add_probe_commands(CLI::App& app, CommandLine& line);
 void add_record_command(CLI::App& app, CommandLine& line);
 void add_local_run_command(CLI::App& app, CommandLine& line);
 void add_file_commands(CLI::App& app, CommandLine& line);

@@ -15,14 +15,17 @@ struct ConvertWords {
     std::optional<double> from, to;
     std::size_t every{1};
     std::optional<int> sheet;
-    bool sheet_only{false};
+    bool sheet_only{false}, probes{false};
 };
 
 proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
     ConvertOptions options;
     options.recording = words.file;
     options.folder = words.out;
-    options.formats = split(words.formats, ',');
+    if (!words.formats.empty()) options.formats = split(words.formats, ',');
+    if (options.formats.empty() && !words.probes)
+        return usage_error("nothing to convert to", "--format", "give --format vtp, csv or png, or --probes");
+    options.probes = words.probes;
     options.every = words.every;
     options.from = words.from;
     options.to = words.to;
@@ -56,12 +59,16 @@ proto::Status convert_file(const Globals& globals, const ConvertWords& words) {
     auto conversion = convert(*options);
     if (!conversion) return conversion.error();
     if (globals.json) {
-        print_json({{"frames", conversion->frames}, {"summaries", conversion->summaries}});
+        print_json({{"frames", conversion->frames},
+                    {"summaries", conversion->summaries},
+                    {"probe_files", conversion->probe_files}});
         return proto::Done{};
     }
     // The first format is what the user opens next; the others are there as well.
     for (std::size_t k = 0; k < conversion->summaries.size(); ++k)
         k == 0 ? print_line(conversion->summaries[k]) : print_note(conversion->summaries[k]);
+    for (const std::string& file : conversion->probe_files)
+        options->formats.empty() ? print_line(file) : print_note(file);
     return proto::Done{};
 }
 
@@ -115,8 +122,9 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
     CLI::App* converter = add_command(app, line, "convert", "turn a recording into files for other programs",
                                       [words](const Globals& globals) { return convert_file(globals, *words); });
     converter->add_option("FILE", words->file, "a recording, .mcap")->required();
-    converter->add_option("--format", words->formats, "vtp, csv, png; several with commas")->required();
+    converter->add_option("--format", words->formats, "vtp, csv, png; several with commas");
     converter->add_option("--out", words->out, "folder of the results")->required();
+    converter->add_flag("--probes", words->probes, "a CSV file with the samples of each probe");
     converter->add_option("--every", words->every, "each so many-th frame")->check(CLI::PositiveNumber);
     converter->add_option("--from", words->from, "first time [s]");
     converter->add_option("--to", words->to, "last time [s]");

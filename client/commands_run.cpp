@@ -91,7 +91,7 @@ void add_run_commands(CLI::App& app, CommandLine& line) {
                                        [options](const Globals& globals) { return resume(globals, *options); });
     subcommand->add_option("--until", options->until,
                            "end of the run, which is waited for: at-rest, 2 (t = 2 s), +2 (2 s from now), step=400, "
-                           "steps=400");
+                           "steps=400, or a probe's value, 'gauge>0.3'");
     subcommand->add_option("--pace", options->pace, "simulated seconds per wall second at most; 1 is real time")
         ->check(CLI::PositiveNumber);
     subcommand->add_option("--timeout", options->timeout, "simulated seconds after which the run has timed out")

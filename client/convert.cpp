@@ -6,6 +6,7 @@
 #include "client/arguments.h"
 #include "client/interrupt.h"
 #include "client/object_timeline.h"
+#include "client/probe_csv.h"
 #include "client/progress.h"
 #include "client/text.h"
 #include "proto/messages_json.h"
@@ -74,6 +75,14 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
     auto opened = proto::RecordingReader::open(options.recording);
     if (!opened) return opened.error();
     proto::RecordingReader& reader = **opened;
+    Conversion conversion;
+    if (options.probes) {
+        auto files =
+            write_probe_files(reader, {options.folder, options.recording.stem().string(), options.from, options.to});
+        if (!files) return files.error();
+        conversion.probe_files = *std::move(files);
+    }
+    if (options.formats.empty()) return conversion;
     const proto::RecordingMetadata& metadata = reader.summary().metadata;
     auto scene = proto::parse_scene(metadata.scene_json);
     if (!scene) return scene.error();
@@ -88,7 +97,6 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
     auto writers = make_writers(options, *scene, frames.size());
     if (!writers) return writers.error();
 
-    Conversion conversion;
     Progress progress = make_progress("converting");
     for (const std::size_t index : frames) {
         if (is_interrupted()) break;

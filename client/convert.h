@@ -19,11 +19,13 @@ struct ConvertOptions {
     PictureOptions picture;
     std::size_t every{1};            // each so many-th frame of those in the range
     std::optional<double> from, to;  // [s] simulated, both included
+    bool probes{false};              // a CSV file for each probe besides
 };
 
 struct Conversion {
     std::size_t frames{};
-    std::vector<std::string> summaries;  // one per format, in the order asked for
+    std::vector<std::string> summaries;    // one per format, in the order asked for
+    std::vector<std::string> probe_files;  // of --probes
 };
 
 // Errors: usage, for a format that does not exist.

@@ -95,7 +95,8 @@ proto::Result<proto::JobReply> JobWatch::wait() {
 
 std::string job_line(const proto::JobReply& job, const proto::RunUntil& until) {
     std::string word = job_state_text(job.state);
-    if (job.state == proto::JobState::finished) word = until.at_rest.value_or(false) ? "at rest" : "done";
+    if (job.state == proto::JobState::finished)
+        word = until.at_rest.value_or(false) ? "at rest" : until.probe ? job.reason : "done";
     return word + ": " + at_moment(job.step, job.time);
 }
 

@@ -8,6 +8,7 @@
 
 #include "client/call.h"
 #include "client/endpoints.h"
+#include "client/probe_recording.h"
 #include "client/text.h"
 #include "proto/envelope.h"
 #include "proto/recording.h"
@@ -48,6 +49,7 @@ struct Recorder::Impl {
     Connection& connection;
     RecordOptions options;
     std::unique_ptr<proto::RecordingWriter> writer;
+    std::optional<ProbeRecording> probes;  // once the stream has told where the recording begins
     std::unique_ptr<RpcSocket> data;
     std::string stream;
     std::int64_t window{1};
@@ -177,6 +179,7 @@ proto::Result<std::unique_ptr<Recorder>> Recorder::open(Connection& connection, 
         std::filesystem::remove(options.file, ignored);  // it holds no frame
         return opened.error();
     }
+    impl->probes.emplace(connection, *impl->writer, impl->first_time);
     return std::unique_ptr<Recorder>(new Recorder(std::move(impl)));
 }
 
@@ -210,8 +213,9 @@ proto::Status Recorder::take_events() {
                 return proto::Error{proto::ErrorCode::timed_out, event.message, impl_->options.file.string(),
                                     "the file is complete up to there"};
         }
-        if (reply->events.empty()) return proto::Done{};
+        if (reply->events.empty()) break;
     }
+    return impl_->probes->take(impl_->end_time);
 }
 
 proto::Status Recorder::reattach_when_silent() {

@@ -71,9 +71,19 @@ std::string object_text(const proto::ObjectDesc& object) {
             [](const proto::BoxDesc& box) { return "box " + vector_text(box.min) + " to " + vector_text(box.max); },
             [](const proto::SphereDesc& sphere) {
                 return "sphere at " + vector_text(sphere.center) + ", radius " + number(sphere.radius);
-            }},
+            },
+            [](const proto::CylinderDesc& cylinder) {
+                return "cylinder " + vector_text(cylinder.from) + " to " + vector_text(cylinder.to) + ", radius " +
+                       number(cylinder.radius);
+            },
+            [](const proto::PlaneDesc& plane) {
+                return "plane at " + vector_text(plane.point) + ", fluid towards " + vector_text(plane.normal);
+            },
+            [](const proto::DifferenceDesc&) { return std::string("a difference of shapes"); },
+            [](const proto::IntersectionDesc&) { return std::string("an intersection of shapes"); }},
         object.shape);
-    return object.name + ": " + (object.role == proto::ObjectRole::container ? "container" : "obstacle") + ", " + shape;
+    return object.name + ": " + (object.role == proto::ObjectRole::container ? "container" : "obstacle") + ", " +
+           shape + (object.motion ? ", moves" : "");
 }
 
 std::string event_line(const proto::Event& event) {

@@ -27,6 +27,9 @@ enum class ErrorCode {
     job_not_found,
     stream_not_found,
     recording_not_found,
+    particle_not_found,
+    probe_not_found,
+    probe_exists,
     limit_exceeded,
     file_error,
     cancelled,
@@ -49,7 +52,7 @@ struct ErrorInfo {
 // -32700 .. -32600 are JSON-RPC 2.0's own (section 5.1); -32001 .. -32099 are its range for servers.
 // Exit codes: 2 usage or bad request, 3 connection, 4 not found, 5 wrong state, 6 files, 7 faulted, 8 timed out, 1
 // rest.
-inline constexpr std::array<ErrorInfo, 28> kErrors{{
+inline constexpr std::array<ErrorInfo, 31> kErrors{{
     {ErrorCode::parse_error, -32700, "parse_error", 2, false},
     {ErrorCode::invalid_request, -32600, "invalid_request", 2, false},
     {ErrorCode::method_not_found, -32601, "method_not_found", 2, false},
@@ -69,6 +72,9 @@ inline constexpr std::array<ErrorInfo, 28> kErrors{{
     {ErrorCode::job_not_found, -32025, "job_not_found", 4, false},
     {ErrorCode::stream_not_found, -32026, "stream_not_found", 4, false},
     {ErrorCode::recording_not_found, -32027, "recording_not_found", 4, false},
+    {ErrorCode::particle_not_found, -32028, "particle_not_found", 4, false},
+    {ErrorCode::probe_not_found, -32029, "probe_not_found", 4, false},
+    {ErrorCode::probe_exists, -32036, "probe_exists", 5, false},
     {ErrorCode::limit_exceeded, -32030, "limit_exceeded", 5, false},
     {ErrorCode::file_error, -32031, "file_error", 6, false},
     {ErrorCode::cancelled, -32032, "cancelled", 5, true},

@@ -44,6 +44,7 @@ constexpr Range between(double min, double max) {
 enum class Text { free, name, recording_file };
 
 inline constexpr std::size_t kMaxNameLength = 64;
+inline constexpr std::size_t kMaxExpressionText = 1000;
 inline constexpr std::string_view kNamePattern = "^[A-Za-z0-9_.-]{1,64}$";
 
 // What is said about one member.
@@ -57,6 +58,7 @@ struct About {
     std::size_t max_items{kNoLimit};
     bool may_be_non_finite{false};  // "NaN", "Infinity" and "-Infinity" are read too
     bool only_true{false};          // a flag that is left out instead of set to false
+    std::size_t choices{kNoLimit};  // a variant: the schema states its first so many alternatives only
 };
 
 // optional: has a default. absent_means_none: std::optional, no default value to speak of.
@@ -106,17 +108,35 @@ template <>
 struct EnumNames<ObjectRole> {
     static constexpr std::array<std::string_view, 2> names{"container", "obstacle"};
 };
+template <>
+struct EnumNames<WallSlip> {
+    static constexpr std::array<std::string_view, 2> names{"free_slip", "no_slip"};
+};
+
+template <>
+struct EnumNames<ProfileField> {
+    static constexpr std::array<std::string_view, 5> names{"pressure", "density", "velocity_x", "velocity_y",
+                                                           "velocity_z"};
+};
 
 // A variant written as an object with one member, which names the alternative.
 template <class V>
 struct Tags;
 template <>
 struct Tags<ShapeDesc> {
-    static constexpr std::array<std::string_view, 2> names{"box", "sphere"};
+    static constexpr std::array<std::string_view, 6> names{"box",   "sphere",     "cylinder",
+                                                           "plane", "difference", "intersection"};
+    static constexpr std::string_view definition = "shape";  // shapes hold shapes: the schema refers to it by this name
 };
+inline constexpr std::size_t kPrimitiveShapes = 4;  // the first so many hold no shapes
 template <>
 struct Tags<SceneAction> {
     static constexpr std::array<std::string_view, 4> names{"remove_object", "move_object", "set_parameters", "pause"};
+};
+template <>
+struct Tags<ProbeKind> {
+    static constexpr std::array<std::string_view, 9> names{"pressure",  "velocity", "level",    "profile", "front",
+                                                           "discharge", "force",    "energies", "density"};
 };
 
 class Visitor {
@@ -142,6 +162,14 @@ class Visitor {
         if (!enter(name, Presence::absent_means_none, !x.has_value())) return;
         if (!x) x.emplace();
         visit(*x, about);
+        leave();
+    }
+
+    // Left out in writing while it is the default.
+    template <class T>
+    void unless_default(std::string_view name, T& x, const About& about, const T& absent = {}) {
+        if (!enter(name, Presence::optional, x == absent)) return;
+        visit(x, about);
         leave();
     }
 
@@ -174,16 +202,23 @@ class Visitor {
     virtual bool enter_choice(std::string_view tag, bool is_current) = 0;
     virtual void leave_choice() = 0;
     virtual void end_choice() = 0;
-    // A name instead of the document itself.
-    virtual void begin_name_or_document(const About& about) = 0;
-    virtual bool enter_name(bool is_current) = 0;
-    virtual bool enter_document(bool is_current) = 0;
+    // A plain value (a name, numbers) or an object instead; `kinds` names both for people.
+    virtual void begin_plain_or_object(std::string_view kinds, const About& about) = 0;
+    virtual bool enter_plain(bool is_current) = 0;
+    virtual bool enter_object(bool is_current) = 0;
     virtual void leave_either() = 0;
+    // A part that holds parts of its own kind. false: it is described elsewhere.
+    virtual bool begin_definition(std::string_view /*name*/, const About&) { return true; }
+    virtual void end_definition() {}
 
     virtual void value(double& x, const About& about) = 0;
+    virtual void value(std::optional<double>& x, const About& about) = 0;  // in a list: null where there is none
     virtual void value(bool& x, const About& about) = 0;
     virtual void value(std::string& x, const About& about) = 0;
     virtual void value(Vec3& x, const About& about) = 0;
+    virtual void value(Scalar& x, const About& about) = 0;
+    virtual void value(ScalarVec3& x, const About& about) = 0;
+    virtual void value(std::array<bool, 3>& x, const About& about) = 0;
     virtual void value(FieldSet& x, const About& about) = 0;
     virtual void value(ParameterValue& x, const About& about) = 0;
     virtual void value(Parameters& x, const About& about) = 0;
@@ -201,8 +236,8 @@ class Visitor {
     void visit_choice(V& x, const About& about);
     template <std::size_t k, class V>
     void visit_alternative(V& x);
-    template <class Document>
-    void visit_name_or_document(std::variant<std::string, Document>& x, const About& about);
+    template <class Plain, class Object>
+    void visit_plain_or_object(std::variant<Plain, Object>& x, const About& about);
 };
 
 template <class T>
@@ -220,12 +255,18 @@ void Visitor::visit(T& x, const About& about) {
         visit_integer(x, about);
     } else if constexpr (is_list<T>) {
         visit_list(x, about);
+    } else if constexpr (requires { Tags<T>::definition; }) {
+        // Objects allow fewer alternatives, none of which holds parts: no definition is needed.
+        if (about.choices != kNoLimit) return visit_choice(x, about);
+        if (!begin_definition(Tags<T>::definition, about)) return;
+        visit_choice(x, about);
+        end_definition();
     } else if constexpr (requires { Tags<T>::names; }) {
         visit_choice(x, about);
     } else if constexpr (requires { value(x, about); }) {
         value(x, about);
-    } else if constexpr (requires { std::get<std::string>(x); }) {
-        visit_name_or_document(x, about);
+    } else if constexpr (requires { visit_plain_or_object(x, about); }) {
+        visit_plain_or_object(x, about);
     } else if (begin_object(about)) {
         describe(*this, x);
         end_object();
@@ -277,20 +318,27 @@ void Visitor::visit_choice(V& x, const About& about) {
     [&]<std::size_t... k>(std::index_sequence<k...>) {
         (visit_alternative<k>(x), ...);
     }
-    (std::make_index_sequence<std::variant_size_v<V>>{});
+    (std::make_index_sequence<Tags<V>::names.size()>{});
     end_choice();
 }
 
-template <class Document>
-void Visitor::visit_name_or_document(std::variant<std::string, Document>& x, const About& about) {
-    begin_name_or_document(about);
-    if (enter_name(x.index() == 0)) {
+template <class Plain, class Object>
+void Visitor::visit_plain_or_object(std::variant<Plain, Object>& x, const About& about) {
+    constexpr bool is_name = std::is_same_v<Plain, std::string>;
+    begin_plain_or_object(is_name                             ? "a name or an object"
+                          : std::is_same_v<Plain, ScalarVec3> ? "an array of numbers and expressions, or a table"
+                                                              : "a number, an expression, or a table",
+                          about);
+    if (enter_plain(x.index() == 0)) {
         if (x.index() != 0) x.template emplace<0>();
-        visit(std::get<0>(x), {.text = Text::name});
+        About plain = is_name ? About{.text = Text::name} : about;
+        plain.meaning = {};
+        visit(std::get<0>(x), plain);
         leave_either();
-    } else if (enter_document(x.index() == 1)) {
+    }
+    if (enter_object(x.index() == 1)) {  // the schema has both
         if (x.index() != 1) x.template emplace<1>();
-        visit(std::get<1>(x), {});
+        visit(std::get<1>(x), {.unit = is_name ? std::string_view{} : about.unit});
         leave_either();
     }
 }

@@ -43,15 +43,19 @@ class Reader final : public Visitor {
     bool enter_choice(std::string_view tag, bool is_current) override;
     void leave_choice() override { pop(); }
     void end_choice() override {}
-    void begin_name_or_document(const About&) override;
-    bool enter_name(bool) override;
-    bool enter_document(bool) override;
+    void begin_plain_or_object(std::string_view kinds, const About&) override;
+    bool enter_plain(bool) override;
+    bool enter_object(bool) override;
     void leave_either() override {}
 
     void value(double& x, const About& about) override;
+    void value(std::optional<double>& x, const About& about) override;
     void value(bool& x, const About& about) override;
     void value(std::string& x, const About& about) override;
     void value(Vec3& x, const About& about) override;
+    void value(Scalar& x, const About& about) override;
+    void value(ScalarVec3& x, const About& about) override;
+    void value(std::array<bool, 3>& x, const About& about) override;
     void value(FieldSet& x, const About& about) override;
     void value(ParameterValue& x, const About& about) override;
     void value(Parameters& x, const About& about) override;
@@ -82,6 +86,9 @@ class Reader final : public Visitor {
     void wrong_kind(const std::string& expected);
     bool check_count(std::size_t count, const About& about, std::string_view what);
     bool check_range(double x, const About& about);
+    // One value per axis: in a scene of 2 dimensions the third is `none` or left out.
+    template <class T>
+    void read_per_axis(std::array<T, 3>& x, std::string_view items, const T& none, const About& about);
     const Json* find(std::string_view name) const;
     // An integer, also when it is written as 1e3 or 2.0; larger ones than 2^53 only as digits.
     template <class Integer>

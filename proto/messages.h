@@ -74,13 +74,14 @@ struct SimStep {
 
 // When a run ends. At most one of the targets; none: until paused or cancelled.
 struct RunUntil {
-    std::optional<double> time;         // [s] absolute simulated time
-    std::optional<double> duration;     // [s] simulated time from now
-    std::optional<std::int64_t> step;   // absolute step number
-    std::optional<std::int64_t> steps;  // steps from now
-    std::optional<bool> at_rest;        // true: the scene's at_rest criterion
-    std::optional<double> timeout;      // [s] simulated time from now after which the run ends as timed_out;
-                                        // for at_rest the scene's own time-out holds when this is absent
+    std::optional<double> time;               // [s] absolute simulated time
+    std::optional<double> duration;           // [s] simulated time from now
+    std::optional<std::int64_t> step;         // absolute step number
+    std::optional<std::int64_t> steps;        // steps from now
+    std::optional<bool> at_rest;              // true: the scene's at_rest criterion
+    std::optional<ProbeConditionDesc> probe;  // the probe's last sample fulfils it
+    std::optional<double> timeout;            // [s] simulated time from now after which the run ends as timed_out;
+                                              // for at_rest the scene's own time-out holds when this is absent
 };
 struct SimRun {
     RunUntil until;
@@ -170,6 +171,35 @@ struct SimStatusReply {
     double uptime_s{};
 };
 
+// One particle explained; a query that is answered between two steps.
+struct SimInspect {
+    std::uint32_t id{};
+};
+struct InspectedNeighbour {
+    std::optional<std::uint32_t> id;    // of a fluid particle,
+    std::optional<std::string> object;  // or the object that a wall's particle stands for
+    double distance{};                  // [m]
+    double weight{};                    // [1] V_j W_ij
+};
+struct InspectedTerm {
+    std::string term;     // as in the plan
+    Vec3 acceleration{};  // [m/s^2]
+};
+struct SimInspectReply {
+    std::uint64_t step{};
+    double time{};  // [s]
+    std::uint32_t id{};
+    Vec3 position{};                             // [m]
+    Vec3 velocity{};                             // [m/s]
+    Vec3 acceleration{};                         // [m/s^2]
+    double density{};                            // [kg/m^3]
+    double pressure{};                           // [Pa]
+    double concentration{};                      // [1] sum of V_j W_ij, itself and walls included
+    double min_eigenvalue{};                     // [1] smallest of the moment matrix
+    std::vector<InspectedNeighbour> neighbours;  // nearest first
+    std::vector<InspectedTerm> terms;            // they add up to the acceleration
+};
+
 // ---- parameters -----------------------------------------------------------------------------------------------------
 
 struct ParamsGet {
@@ -211,6 +241,63 @@ struct ObjectsMove {
 };
 struct ObjectsRemove {
     std::string name;
+};
+
+// ---- probes ---------------------------------------------------------------------------------------------------------
+
+struct ProbeColumn {
+    std::string name;
+    std::string unit;                // "1" for a ratio
+    std::optional<double> position;  // [m] of a profile's point along its line
+
+    bool operator==(const ProbeColumn&) const = default;
+};
+// Values in the columns' order; nothing where there is no fluid to measure.
+using ProbeRow = std::vector<std::optional<double>>;
+
+struct ProbesList {};
+struct ProbeState {
+    ProbeDesc probe;
+    std::vector<ProbeColumn> columns;    // time first
+    std::int64_t samples{};              // kept
+    std::int64_t dropped{};              // older ones that the server no longer holds
+    ProbeRow latest;                     // the last sample; empty: none yet
+    std::optional<std::string> failure;  // why it cannot be evaluated
+};
+struct ProbesListReply {
+    std::vector<ProbeState> probes;  // in the scene's order
+};
+struct ProbesGet {
+    std::optional<std::string> name;  // absent: all
+    std::optional<double> since;      // [s] samples after this time
+    std::int64_t limit{10'000};       // samples of each probe at most, the oldest ones
+};
+struct ProbeSeries {
+    std::string name;
+    std::vector<ProbeColumn> columns;  // time first
+    std::vector<ProbeRow> rows;        // ascending in time
+    std::int64_t dropped{};            // samples that the server no longer holds
+};
+struct ProbesGetReply {
+    std::vector<ProbeSeries> probes;
+    std::optional<double> complete_to;  // [s] no row up to here is missing: ask again with this as `since`
+};
+struct ProbesAdd {
+    ProbeDesc probe;
+};
+struct ProbesRemove {
+    std::string name;
+};
+
+// Message of the channel `probes` of recordings: what was sampled at one instant.
+struct ProbeSample {
+    std::string probe;
+    std::vector<ProbeColumn> columns;  // without time; empty: as in the sample of this probe before
+    ProbeRow values;                   // without time
+};
+struct ProbeSamples {
+    double time{};  // [s]
+    std::vector<ProbeSample> samples;
 };
 
 // ---- frames and streams ---------------------------------------------------------------------------------------------
@@ -306,8 +393,8 @@ using EventValue = std::variant<bool, std::int64_t, double, std::string>;
 
 // Types (the stable list is in proto/README.md): server.started scene.loaded scene.load_failed job.started job.ended
 // job.paused job.resumed sim.at_rest sim.not_at_rest sim.faulted params.changed object.added object.moved
-// object.removed scene_event.fired stream.opened stream.closed stream.failed stream.stalled record.started
-// record.stopped record.failed server.problem server.stopping
+// object.removed probe.added probe.removed probe.failed scene_event.fired stream.opened stream.closed stream.failed
+// stream.stalled record.started record.stopped record.failed server.problem server.stopping
 struct Event {
     std::uint64_t seq{};  // from 1, gap-free within a session
     std::string type;
@@ -335,7 +422,8 @@ struct ServerShutdown {};  // reply: Applied, then the server ends; recordings a
 // ---- envelopes ------------------------------------------------------------------------------------------------------
 
 // What another thread answers for the service thread.
-using Reply = std::variant<Applied, SceneLoadReply, JobReply, ParamsSetReply, StreamOpenReply, StreamAckReply,
-                           StreamCloseReply, FrameGetReply, RecordStartReply, RecordStopReply, StateHash>;
+using Reply =
+    std::variant<Applied, SceneLoadReply, JobReply, ParamsSetReply, StreamOpenReply, StreamAckReply, StreamCloseReply,
+                 FrameGetReply, RecordStartReply, RecordStopReply, StateHash, SimInspectReply>;
 
 }  // namespace headrace::proto

@@ -57,6 +57,7 @@ Json json_schema() {
 
 HEADRACE_REQUEST(SceneDesc)
 HEADRACE_REQUEST(ObjectDesc)
+HEADRACE_REQUEST(ProbeDesc)
 HEADRACE_REQUEST(Hello)
 HEADRACE_REQUEST(Describe)
 HEADRACE_REQUEST(SceneLoad)
@@ -71,12 +72,17 @@ HEADRACE_REQUEST(SimResume)
 HEADRACE_REQUEST(SimCancel)
 HEADRACE_REQUEST(SimReset)
 HEADRACE_REQUEST(SimStatus)
+HEADRACE_REQUEST(SimInspect)
 HEADRACE_REQUEST(ParamsGet)
 HEADRACE_REQUEST(ParamsSet)
 HEADRACE_REQUEST(ObjectsList)
 HEADRACE_REQUEST(ObjectsAdd)
 HEADRACE_REQUEST(ObjectsMove)
 HEADRACE_REQUEST(ObjectsRemove)
+HEADRACE_REQUEST(ProbesList)
+HEADRACE_REQUEST(ProbesGet)
+HEADRACE_REQUEST(ProbesAdd)
+HEADRACE_REQUEST(ProbesRemove)
 HEADRACE_REQUEST(FrameGet)
 HEADRACE_REQUEST(StreamOpen)
 HEADRACE_REQUEST(StreamAck)
@@ -97,10 +103,14 @@ HEADRACE_REPLY(PlanStage)
 HEADRACE_REPLY(FaultReport)
 HEADRACE_REPLY(Diagnostics)
 HEADRACE_REPLY(SimStatusReply)
+HEADRACE_REPLY(SimInspectReply)
 HEADRACE_REPLY(ParameterEntry)
 HEADRACE_REPLY(ParamsGetReply)
 HEADRACE_REPLY(ParamsSetReply)
 HEADRACE_REPLY(ObjectsListReply)
+HEADRACE_REPLY(ProbesListReply)
+HEADRACE_REPLY(ProbesGetReply)
+HEADRACE_REPLY(ProbeSamples)
 HEADRACE_REPLY(FrameGetReply)
 HEADRACE_REPLY(StreamOpenReply)
 HEADRACE_REPLY(StreamAckReply)
@@ -137,6 +147,13 @@ std::string event_text(const Event& event) {
 }
 Result<Event> parse_event(std::string_view text) {
     return parse_message<Event>(text);
+}
+
+std::string probe_samples_text(const ProbeSamples& samples) {
+    return json_text(to_json(samples));
+}
+Result<ProbeSamples> parse_probe_samples(std::string_view text) {
+    return parse_message<ProbeSamples>(text);
 }
 
 std::string objects_text(const std::vector<ObjectDesc>& objects) {

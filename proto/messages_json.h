@@ -25,7 +25,7 @@ Result<Json> parse_json(std::string_view text);
 // Integers may be written as 1e3 or 2.0 when they are exact (up to 2^53). Vectors take 2 or 3 numbers, 3 in a scene of
 // 3 dimensions; with 2 the third is 0. Where a reply's number may be non-finite it travels as the string "NaN",
 // "Infinity" or "-Infinity".
-// Defined for every request and reply struct of messages.h, for SceneDesc and for ObjectDesc.
+// Defined for every request and reply struct of messages.h, for SceneDesc, ObjectDesc and ProbeDesc.
 template <class Message>
 Result<Message> from_json(const Json& json, std::string_view path);
 
@@ -46,6 +46,8 @@ Result<SceneDesc> parse_scene(std::string_view text);
 std::string scene_text(const SceneDesc& scene);  // indented
 std::string event_text(const Event& event);      // one line
 Result<Event> parse_event(std::string_view text);
+std::string probe_samples_text(const ProbeSamples& samples);  // one line
+Result<ProbeSamples> parse_probe_samples(std::string_view text);
 std::string objects_text(const std::vector<ObjectDesc>& objects);  // one line
 Result<std::vector<ObjectDesc>> parse_objects(std::string_view text);
 

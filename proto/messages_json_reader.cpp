@@ -166,16 +166,17 @@ bool Reader::enter_choice(std::string_view tag, bool) {
     return true;
 }
 
-bool Reader::enter_name(bool) {
-    return !error_ && node().is_string();
+void Reader::begin_plain_or_object(std::string_view kinds, const About&) {
+    if (!error_ && !node().is_string() && !node().is_object() && kinds.starts_with("a name"))
+        wrong_kind(std::string(kinds));
 }
 
-bool Reader::enter_document(bool) {
+bool Reader::enter_plain(bool) {
+    return !error_ && !node().is_object();
+}
+
+bool Reader::enter_object(bool) {
     return !error_ && node().is_object();
-}
-
-void Reader::begin_name_or_document(const About&) {
-    if (!error_ && !node().is_string() && !node().is_object()) wrong_kind("a name or an object");
 }
 
 std::optional<Error> read_message(const Json& json, std::string_view path, Strictness strictness, AnyMessage into) {

@@ -45,6 +45,7 @@ void describe(Visitor& v, RunUntil& m) {
     v.optional("step", m.step, {.meaning = "absolute step number", .unit = "1", .range = between(0, kMaxSteps)});
     v.optional("steps", m.steps, {.meaning = "steps from now", .unit = "1", .range = between(1, kMaxSteps)});
     v.optional("at_rest", m.at_rest, {.meaning = "until the fluid is at rest", .only_true = true});
+    v.optional("probe", m.probe, {.meaning = "until the last sample of a probe is above or below a value"});
     v.optional("timeout", m.timeout,
                {.meaning = "simulated time from now after which the run ends as timed_out; at_rest has the scene's own",
                 .unit = "s",
@@ -53,7 +54,8 @@ void describe(Visitor& v, RunUntil& m) {
                    {"duration", m.duration.has_value()},
                    {"step", m.step.has_value()},
                    {"steps", m.steps.has_value()},
-                   {"at_rest", m.at_rest.has_value()}});
+                   {"at_rest", m.at_rest.has_value()},
+                   {"probe", m.probe.has_value()}});
 }
 
 void describe(Visitor& v, SimRun& m) {

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t kMaxSceneItems = 1000;  // fluids, objects or events of a scene
 constexpr std::size_t kMaxParameters = 256;
+constexpr std::size_t kMaxShapeParts = 100;  // of a difference or an intersection
+constexpr std::size_t kMaxTableRows = 100'000;
 
 constexpr std::string_view kAxes[]{"x", "y", "z"};
 
@@ -23,6 +25,10 @@ void describe_corners(Visitor& v, Vec3& min, Vec3& max) {
         v.refuse("max[" + std::to_string(axis) + "]", "must be greater than min along " + std::string(kAxes[axis]),
                  "min is the lower corner, max the upper one [m]");
     }
+}
+
+bool is_zero(const Vec3& x) {
+    return x[0] == 0.0 && x[1] == 0.0 && x[2] == 0.0;
 }
 
 template <class Named>
@@ -45,20 +51,94 @@ void describe(Visitor& v, SphereDesc& sphere) {
     v.required("radius", sphere.radius, {.meaning = "radius", .unit = "m", .range = kPositive});
 }
 
+void describe(Visitor& v, CylinderDesc& cylinder) {
+    v.required("from", cylinder.from, {.meaning = "centre of one flat end", .unit = "m"});
+    v.required("to", cylinder.to, {.meaning = "centre of the other", .unit = "m"});
+    v.required("radius", cylinder.radius, {.meaning = "radius", .unit = "m", .range = kPositive});
+    if (v.dimensions == 2) v.refuse({}, "is for 3 dimensions only", "in 2D a disc is a sphere");
+    if (cylinder.from == cylinder.to)
+        v.refuse("to", "must differ from `from`", "give the centres of the two flat ends [m]");
+}
+
+void describe(Visitor& v, PlaneDesc& plane) {
+    v.required("point", plane.point, {.meaning = "a point of the plane", .unit = "m"});
+    v.required("normal", plane.normal,
+               {.meaning = "objects: towards the fluid; fluids: out of the fluid; of any length", .unit = "1"});
+    if (is_zero(plane.normal)) v.refuse("normal", "must not be zero", "give a direction, of any length");
+}
+
+void describe(Visitor& v, DifferenceDesc& difference) {
+    v.required("of", difference.of,
+               {.meaning = "inside the first and in none of the others", .min_items = 2, .max_items = kMaxShapeParts});
+}
+
+void describe(Visitor& v, IntersectionDesc& intersection) {
+    v.required("of", intersection.of, {.meaning = "inside all", .min_items = 2, .max_items = kMaxShapeParts});
+}
+
+void describe(Visitor& v, TableDesc& table) {
+    v.required("table", table.rows,
+               {.meaning = "rows of [t, value...], t in s rising: smooth between rows, constant before and after them",
+                .min_items = 2,
+                .max_items = kMaxTableRows});
+}
+
+void describe(Visitor& v, FluidStartDesc& start) {
+    v.optional("relaxed", start.relaxed,
+               {.meaning = "push the particles apart until they are evenly spread and follow curved surfaces"});
+    v.optional("jitter", start.jitter,
+               {.meaning = "largest random displacement of each lattice point along each axis, in spacings",
+                .unit = "1",
+                .range = between(0.0, 0.5)});
+    v.optional("seed", start.seed, {.meaning = "of the random displacement"});
+}
+
 void describe(Visitor& v, FluidDesc& fluid) {
     v.required("name", fluid.name, {.meaning = "name of the fluid volume", .text = Text::name});
     v.required("shape", fluid.shape, {.meaning = "volume that is filled with particles"});
-    v.optional("velocity", fluid.velocity, {.meaning = "uniform velocity at the start", .unit = "m/s"});
+    v.optional("velocity", fluid.velocity,
+               {.meaning = "velocity at the start: numbers, or expressions in x, y, z", .unit = "m/s"});
+    v.optional("pressure", fluid.pressure,
+               {.meaning = "pressure at the start: a number, or an expression in x, y, z", .unit = "Pa"});
+    std::optional<bool> hydrostatic = fluid.hydrostatic ? std::optional(true) : std::nullopt;
+    v.optional(
+        "hydrostatic", hydrostatic,
+        {.meaning = "start with the pressure of still fluid below this volume's highest point", .only_true = true});
+    fluid.hydrostatic = hydrostatic.value_or(false);
+    v.at_most_one({{"pressure", fluid.pressure.has_value()}, {"hydrostatic", fluid.hydrostatic}});
+    v.unless_default("start", fluid.start, {.meaning = "how its particles stand at the start"});
+}
+
+void describe(Visitor& v, MotionDesc& motion) {
+    v.optional("displacement", motion.displacement,
+               {.meaning = "expressions in t, or a table with rows [t, x, y, z] (2D: [t, x, y])", .unit = "m"});
+    v.optional("angle", motion.angle,
+               {.meaning = "turn about the axis through the pivot: an expression in t, or a table with rows [t, angle]",
+                .unit = "rad"});
+    v.optional("pivot", motion.pivot,
+               {.meaning = "a point of the axis, at the object's place at the start", .unit = "m"});
+    v.unless_default("axis", motion.axis, {.meaning = "of the turn, of any length; 2D: always z", .unit = "1"},
+                     MotionDesc{}.axis);
+    if (is_zero(motion.axis)) v.refuse("axis", "must not be zero", "give a direction, of any length");
 }
 
 void describe(Visitor& v, ObjectDesc& object) {
     v.required("name", object.name, {.meaning = "name of the collision object", .text = Text::name});
     v.optional("role", object.role, {.meaning = "a container keeps the fluid inside, an obstacle keeps it out"});
-    v.required("shape", object.shape, {.meaning = "its surface"});
+    v.required("shape", object.shape, {.meaning = "its surface", .choices = kPrimitiveShapes});
+    if (object.shape.index() >= kPrimitiveShapes)
+        v.refuse("shape", "must be a box, a sphere, a cylinder or a plane",
+                 "give each part an object of its own; differences and intersections are for fluids");
+    v.optional("slip", object.slip,
+               {.meaning = "does the fluid slip along it or stick to it; absent: the model's parameter wall_slip"});
+    v.optional("motion", object.motion, {.meaning = "prescribed motion relative to its place at the start"});
+    v.optional("surface_velocity", object.surface_velocity,
+               {.meaning = "expressions in t: the surface slides in itself, as a belt does", .unit = "m/s"});
 }
 
 void describe(Visitor& v, DomainDesc& domain) {
     describe_corners(v, domain.min, domain.max);
+    v.unless_default("periodic", domain.periodic, {.meaning = "per axis: what leaves at max enters at min"});
 }
 
 void describe(Visitor& v, AtRestDesc& at_rest) {
@@ -96,8 +176,12 @@ void describe(Visitor& v, SceneEventDesc& event) {
     event.at_rest = at_rest.value_or(false);
     v.optional("time", event.time, {.meaning = "fires at this simulated time", .unit = "s", .range = kNotNegative});
     v.optional("step", event.step, {.meaning = "fires before this step", .unit = "1", .range = kNotNegative});
+    v.optional("probe", event.probe, {.meaning = "fires at the first sample for which it holds"});
     v.required("action", event.action, {.meaning = "what happens"});
-    v.exactly_one({{"at_rest", event.at_rest}, {"time", event.time.has_value()}, {"step", event.step.has_value()}});
+    v.exactly_one({{"at_rest", event.at_rest},
+                   {"time", event.time.has_value()},
+                   {"step", event.step.has_value()},
+                   {"probe", event.probe.has_value()}});
 }
 
 void describe(Visitor& v, OutputDesc& output) {
@@ -122,16 +206,26 @@ void describe(Visitor& v, SceneDesc& scene) {
     v.required("spacing", scene.spacing,
                {.meaning = "initial spacing of the particles", .unit = "m", .range = kPositive});
     v.required("domain", scene.domain, {.meaning = "a particle outside faults the run"});
+    v.unless_default("body_force", scene.body_force,
+                     {.meaning = "acceleration of the fluid beside gravity, a parameter of the model: numbers, or "
+                                 "expressions in x, y, z, t",
+                      .unit = "m/s^2"});
+    v.optional("frame_acceleration", scene.frame_acceleration,
+               {.meaning = "acceleration of the frame the scene is told in (a shaken tank): expressions in t, or a "
+                           "table with rows [t, x, y, z] (2D: [t, x, y])",
+                .unit = "m/s^2"});
     v.required("fluids", scene.fluids,
                {.meaning = "volumes of fluid at the start", .min_items = 1, .max_items = kMaxSceneItems});
     v.optional("objects", scene.objects,
                {.meaning = "collision objects, tested in this order", .max_items = kMaxSceneItems});
+    v.optional("probes", scene.probes, {.meaning = "what is measured", .max_items = kMaxSceneItems});
     v.optional("events", scene.events, {.meaning = "what happens by itself", .max_items = kMaxSceneItems});
     v.optional("at_rest", scene.at_rest, {.meaning = "when the fluid counts as being at rest"});
     v.optional("output", scene.output, {.meaning = "what recordings hold unless they say otherwise"});
     v.dimensions = 0;
     refuse_double_names(v, scene.fluids, "fluids");
     refuse_double_names(v, scene.objects, "objects");
+    refuse_double_names(v, scene.probes, "probes");
 }
 
 }  // namespace headrace::proto

@@ -1,4 +1,6 @@
-// Message -> JSON schema 2020-12, usable alone: nested messages stand inside, nothing is referred to.
+// Message -> JSON schema 2020-12, usable alone: nested messages stand inside; only what holds parts of its own kind
+// (shapes) is referred to, below "$defs" of the same schema.
+#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -34,6 +36,9 @@ Json non_finite_names() {
 class SchemaBuilder final : public Visitor {
   public:
     explicit SchemaBuilder(Json& root) : nodes_{&root} {}
+
+    // Referred-to parts by name, once the message was visited.
+    const std::map<std::string, Json>& definitions() const { return definitions_; }
 
     void tolerate_text(std::string_view name) override { node()["properties"][std::string(name)]["type"] = "string"; }
     void at_most_one(std::initializer_list<Alternative> members) override {
@@ -97,9 +102,11 @@ class SchemaBuilder final : public Visitor {
         wants_default_ = false;
         describe_node(about);
         node()["oneOf"] = Json::array();
+        choices_ = about.choices;
         return true;
     }
     bool enter_choice(std::string_view tag, bool) override {
+        if (node()["oneOf"].size() >= choices_) return false;
         node()["oneOf"].push_back(Json::object());
         nodes_.push_back(&node()["oneOf"].back());
         node()["type"] = "object";
@@ -113,15 +120,25 @@ class SchemaBuilder final : public Visitor {
         nodes_.pop_back();
     }
     void end_choice() override {}
-    void begin_name_or_document(const About& about) override {
+    bool begin_definition(std::string_view name, const About& about) override {
+        wants_default_ = false;
+        describe_node(about);
+        node()["$ref"] = "#/$defs/" + std::string(name);
+        const auto [definition, is_new] = definitions_.try_emplace(std::string(name), Json::object());
+        if (is_new) nodes_.push_back(&definition->second);
+        return is_new;
+    }
+    void end_definition() override { nodes_.pop_back(); }
+    void begin_plain_or_object(std::string_view, const About& about) override {
         wants_default_ = false;
         describe_node(about);
         node()["anyOf"] = Json::array({Json::object(), Json::object()});
-        node()["anyOf"][0]["type"] = "string";
-        node()["anyOf"][0]["pattern"] = kNamePattern;
     }
-    bool enter_name(bool) override { return false; }
-    bool enter_document(bool) override {
+    bool enter_plain(bool) override {
+        nodes_.push_back(&node()["anyOf"][0]);
+        return true;
+    }
+    bool enter_object(bool) override {
         nodes_.push_back(&node()["anyOf"][1]);
         return true;
     }
@@ -132,6 +149,12 @@ class SchemaBuilder final : public Visitor {
         number(node(), about);
         unit_of(about);
         default_of(x);
+    }
+    void value(std::optional<double>&, const About& about) override {
+        describe_node(about);
+        node()["type"] = Json::array({"number", "null"});
+        unit_of(about);
+        wants_default_ = false;
     }
     void value(bool& x, const About& about) override {
         describe_node(about);
@@ -153,6 +176,27 @@ class SchemaBuilder final : public Visitor {
         number(node()["items"], about);
         vector_size(node());
         unit_of(about);
+        default_of(x);
+    }
+    void value(Scalar& x, const About& about) override {
+        describe_node(about);
+        expression(node());
+        unit_of(about);
+        std::visit([this](const auto& absent) { default_of(absent); }, x);
+    }
+    void value(ScalarVec3& x, const About& about) override {
+        open("array", about);
+        expression(node()["items"]);
+        vector_size(node());
+        unit_of(about);
+        Json absent = Json::array();
+        for (const Scalar& component : x) std::visit([&](const auto& c) { absent.push_back(c); }, component);
+        default_of(absent);
+    }
+    void value(std::array<bool, 3>& x, const About& about) override {
+        open("array", about);
+        node()["items"]["type"] = "boolean";
+        vector_size(node());
         default_of(x);
     }
     void value(FieldSet& x, const About& about) override {
@@ -241,6 +285,10 @@ class SchemaBuilder final : public Visitor {
             limit(node(), about.range);
         unit_of(about);
     }
+    static void expression(Json& schema) {
+        schema["type"] = Json::array({"number", "string"});
+        schema["maxLength"] = kMaxExpressionText;
+    }
     static void vector_size(Json& schema) {
         schema["minItems"] = 2;
         schema["maxItems"] = 3;
@@ -256,6 +304,8 @@ class SchemaBuilder final : public Visitor {
     std::vector<Json*> nodes_;  // a parent gets no further member while a child is open
     bool wants_default_{false};
     bool is_conditional_{false};
+    std::size_t choices_{kNoLimit};
+    std::map<std::string, Json> definitions_;
 };
 
 }  // namespace
@@ -266,6 +316,7 @@ Json message_schema(std::string_view title, AnyMessage defaults) {
     schema["title"] = title;
     SchemaBuilder builder(schema);
     defaults.visit(builder, defaults.message);
+    for (const auto& [name, definition] : builder.definitions()) schema["$defs"][name] = definition;
     return schema;
 }
 

@@ -94,6 +94,12 @@ void Reader::value(double& x, const About& about) {
     if (check_range(number, about)) x = number;
 }
 
+void Reader::value(std::optional<double>& x, const About& about) {
+    if (error_) return;
+    x.reset();
+    if (!node().is_null()) value(x.emplace(), about);
+}
+
 template <class Integer>
 bool Reader::read_integer(Integer& x, const About& about) {
     if (error_) return false;
@@ -162,22 +168,44 @@ void Reader::enum_value(std::size_t& index, std::span<const std::string_view> na
     index = static_cast<std::size_t>(match - names.begin());
 }
 
-void Reader::value(Vec3& x, const About& about) {
+template <class T>
+void Reader::read_per_axis(std::array<T, 3>& x, std::string_view items, const T& none, const About& about) {
     if (error_) return;
     const std::size_t size = node().is_array() ? node().size() : 0;
     if (size != 3 && (size != 2 || dimensions == 3)) {
-        const std::string kind = dimensions == 3 ? "an array of 3 numbers" : "an array of 2 or 3 numbers";
-        return wrong_kind(with_unit(kind, about.unit));
+        const std::string count = dimensions == 3 ? "an array of 3 " : "an array of 2 or 3 ";
+        return wrong_kind(with_unit(count + std::string(items), about.unit));
     }
-    Vec3 read{};
+    std::array<T, 3> read{};
     for (std::size_t k = 0; k < size && !error_; ++k) {
         push(node()[k], {{}, k, true});
         value(read[k], about);
-        if (k == 2 && dimensions == 2 && !error_ && read[2] != 0.0)
-            fail("must be 0 in a scene of 2 dimensions, got " + found(node()), "leave the third number out");
+        if (k == 2 && dimensions == 2 && !error_ && read[2] != none)
+            fail(std::string("must be ") + (std::is_same_v<T, bool> ? "false" : "0") +
+                     " in a scene of 2 dimensions, got " + found(node()),
+                 "leave the third " + std::string(std::is_same_v<T, bool> ? "value" : "number") + " out");
         pop();
     }
     if (!error_) x = read;
+}
+
+void Reader::value(Vec3& x, const About& about) {
+    read_per_axis(x, "numbers", 0.0, about);
+}
+
+void Reader::value(ScalarVec3& x, const About& about) {
+    read_per_axis(x, "numbers or expressions", Scalar{0.0}, about);
+}
+
+void Reader::value(std::array<bool, 3>& x, const About& about) {
+    read_per_axis(x, "true or false", false, about);
+}
+
+void Reader::value(Scalar& x, const About& about) {
+    if (error_) return;
+    if (node().is_number()) return value(x.emplace<double>(), about);
+    if (!node().is_string()) return wrong_kind(with_unit("a number or an expression", about.unit));
+    value(x.emplace<std::string>(), About{.max_length = kMaxExpressionText});
 }
 
 void Reader::value(FieldSet& x, const About& about) {

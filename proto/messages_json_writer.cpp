@@ -74,15 +74,22 @@ class Writer final : public Visitor {
     }
     void leave_choice() override { nodes_.pop_back(); }
     void end_choice() override {}
-    void begin_name_or_document(const About&) override {}
-    bool enter_name(bool is_current) override { return is_current; }
-    bool enter_document(bool is_current) override { return is_current; }
+    void begin_plain_or_object(std::string_view, const About&) override {}
+    bool enter_plain(bool is_current) override { return is_current; }
+    bool enter_object(bool is_current) override { return is_current; }
     void leave_either() override {}
 
     void value(double& x, const About&) override { node() = number(x); }
+    void value(std::optional<double>& x, const About&) override { node() = x ? number(*x) : Json(nullptr); }
     void value(bool& x, const About&) override { node() = x; }
     void value(std::string& x, const About&) override { node() = x; }
     void value(Vec3& x, const About&) override { node() = vector(x); }
+    void value(Scalar& x, const About&) override { node() = std::visit(ParameterWriter{}, x); }
+    void value(ScalarVec3& x, const About&) override {
+        node() = Json::array();
+        for (const Scalar& component : x) node().push_back(std::visit(ParameterWriter{}, component));
+    }
+    void value(std::array<bool, 3>& x, const About&) override { node() = x; }
     void value(FieldSet& x, const About&) override {
         node() = Json::array();
         for (const FieldInfo& info : kFields)

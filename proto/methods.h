@@ -41,8 +41,8 @@ inline constexpr std::tuple kMethodTypes{
         {"scene.list", MethodSocket::control, "Lists the scenes that come with the server."}},
     Method<SimStep, JobReply>{
         {"sim.step", MethodSocket::control, "Does so many steps and replies when they are done."}},
-    Method<SimRun, JobReply>{
-        {"sim.run", MethodSocket::control, "Starts a run as a job, until a time, a step, rest or a pause."}},
+    Method<SimRun, JobReply>{{"sim.run", MethodSocket::control,
+                              "Starts a run as a job, until a time, a step, rest, a probe's value or a pause."}},
     Method<JobWait, JobReply>{{"job.wait", MethodSocket::control, "Replies when the job has ended."}},
     Method<SimPause, Applied>{
         {"sim.pause", MethodSocket::control, "Pauses the run before the next step; its job stays."}},
@@ -54,6 +54,8 @@ inline constexpr std::tuple kMethodTypes{
         {"sim.reset", MethodSocket::control, "Loads the scene anew, with its own objects and parameters."}},
     Method<SimStatus, SimStatusReply>{
         {"sim.status", MethodSocket::control, "Gives state, clock, diagnostics, plan and, on request, a state hash."}},
+    Method<SimInspect, SimInspectReply>{
+        {"sim.inspect", MethodSocket::control, "Explains one particle: its neighbours and the force of each term."}},
     Method<ParamsGet, ParamsGetReply>{
         {"params.get", MethodSocket::control, "Gives model parameters with default, unit and meaning."}},
     Method<ParamsSet, ParamsSetReply>{
@@ -64,6 +66,12 @@ inline constexpr std::tuple kMethodTypes{
         {"objects.move", MethodSocket::control, "Moves a collision object between two steps."}},
     Method<ObjectsRemove, Applied>{
         {"objects.remove", MethodSocket::control, "Removes a collision object between two steps."}},
+    Method<ProbesList, ProbesListReply>{
+        {"probes.list", MethodSocket::control, "Lists the probes with their columns and last samples."}},
+    Method<ProbesGet, ProbesGetReply>{
+        {"probes.get", MethodSocket::control, "Gives the samples of one probe or of all, after a time."}},
+    Method<ProbesAdd, Applied>{{"probes.add", MethodSocket::control, "Adds a probe between two steps."}},
+    Method<ProbesRemove, Applied>{{"probes.remove", MethodSocket::control, "Removes a probe between two steps."}},
     Method<FrameGet, FrameGetReply>{
         {"frame.get", MethodSocket::data, "Replies with a frame of the present state as a second message part."}},
     Method<StreamOpen, StreamOpenReply>{

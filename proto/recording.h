@@ -43,7 +43,9 @@ class RecordingWriter {
     Status write_frame(std::span<const std::byte> frame);      // wire bytes, verbatim; log_time = frame time in ns
     Status write_event(const Event& event);                    // JSON channel "events"
     Status write_command(std::string_view json, double time);  // JSON channel "commands"
-    Status finish();                                           // summary and footer; idempotent
+    // JSON channel "probes". Each sample comes with its columns; they are written when they are new.
+    Status write_probes(const ProbeSamples& samples);
+    Status finish();  // summary and footer; idempotent
 
     std::uint64_t frames() const;
     std::uint64_t gaps() const;  // jumps in the frames' sequence numbers
@@ -72,6 +74,9 @@ class RecordingReader {
 
     const RecordingSummary& summary() const;   // from one scan at open (chunk headers and indexes, not payloads)
     const std::vector<Event>& events() const;  // ascending in time
+    // Samples of probes in the order of the file, each with its columns. Stops at the first error: file_error,
+    // parse_error naming file and byte offset.
+    Status read_probes(const std::function<void(const ProbeSamples&)>& visit);
     std::size_t frame_count() const;
     double frame_time(std::size_t index) const;  // [s]
     // Bytes stay valid until the next call. Errors: file_error, parse_error (bad CRC) naming file and byte offset.

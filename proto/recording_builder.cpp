@@ -47,6 +47,8 @@ Status IndexBuilder::take_chunk(std::uint64_t offset, std::uint64_t length) {
             take_frame({offset, length, ordinal++, message.log_time}, message);
         else if (message.channel == kEvents.id)
             take_event(message);
+        else if (message.channel == kProbes.id)
+            add_probes({offset, length});
     });
     return Done{};
 }
@@ -99,6 +101,14 @@ void IndexBuilder::take_event(const mcap::Message& message) {
         index_.events.push_back(std::move(event).value());
     else
         skip(message.data.size());
+}
+
+ByteView find_probes(ByteView records) {
+    ByteView found;
+    for_each_message(records, [&](const mcap::Message& message) {
+        if (message.channel == kProbes.id) found = message.data;
+    });
+    return found;
 }
 
 ByteView find_frame(ByteView records, std::uint32_t ordinal) {

@@ -14,10 +14,12 @@ class IndexBuilder {
   public:
     explicit IndexBuilder(ChunkLoader& loader) : loader_(loader) {}
 
-    // Takes frames and events of a chunk. Damage is counted; an error means that the file cannot be read.
+    // Takes frames, events and samples of probes of a chunk. Damage is counted; an error means that the file cannot be
+    // read.
     Status take_chunk(std::uint64_t offset, std::uint64_t length);
     bool take_metadata(mcap::ByteView content);  // false: damaged
     void add_frame(const FrameEntry& entry) { index_.frames.push_back(entry); }
+    void add_probes(const ChunkPlace& place) { index_.probes.push_back(place); }
     void set_gaps(std::uint64_t gaps) { index_.summary.gaps = gaps; }
     void skip(std::uint64_t bytes) { index_.summary.damaged_bytes += bytes; }
 

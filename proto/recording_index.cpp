@@ -64,6 +64,7 @@ Result<bool> take_summary_record(const File& file, const mcap::Record& record, R
         data.begin = chunk->offset + chunk->length;
         const std::uint16_t channel = chunk->message_indexes.begin()->first;
         if (channel == kFrames.id) builder.add_frame({chunk->offset, chunk->length, 0, chunk->start_time});
+        if (channel == kProbes.id) builder.add_probes({chunk->offset, chunk->length});
         if (channel == kEvents.id)
             if (Status status = builder.take_chunk(chunk->offset, chunk->length); !status) return status.error();
     }

@@ -16,10 +16,16 @@ struct FrameEntry {
     std::uint64_t log_time{};  // [ns]
 };
 
+struct ChunkPlace {
+    std::uint64_t offset{};
+    std::uint64_t length{};
+};
+
 struct Index {
     RecordingSummary summary;
     std::vector<FrameEntry> frames;  // in the order of the file
     std::vector<Event> events;       // ascending in time
+    std::vector<ChunkPlace> probes;  // chunks with samples of probes, in the order of the file
 };
 
 inline constexpr std::uint64_t kMostMetadata = std::uint64_t{64} << 20;  // [bytes] four times the largest request
@@ -34,6 +40,9 @@ Result<Index> read_index(const File& file, ChunkLoader& loader);
 
 // The second way of the two.
 Result<Index> index_by_scan(const File& file, ChunkLoader& loader);
+
+// The data of a chunk's message of probes; empty when there is none.
+mcap::ByteView find_probes(mcap::ByteView records);
 
 // The data of the frame message at `ordinal`; empty when there is none.
 mcap::ByteView find_frame(mcap::ByteView records, std::uint32_t ordinal);

@@ -23,5 +23,6 @@ struct Channel {
 inline constexpr Channel kFrames{1, "frames", "headrace_frame", "headrace.Frame", "", ""};
 inline constexpr Channel kEvents{2, "events", "json", "headrace.Event", "jsonschema", R"({"type":"object"})"};
 inline constexpr Channel kCommands{3, "commands", "json", "headrace.Command", "jsonschema", R"({"type":"object"})"};
+inline constexpr Channel kProbes{4, "probes", "json", "headrace.ProbeSamples", "jsonschema", R"({"type":"object"})"};
 
 }  // namespace headrace::proto::recording

@@ -1,3 +1,6 @@
+#include <map>
+
+#include "proto/messages_json.h"
 #include "proto/recording.h"
 #include "proto/recording_chunk.h"
 #include "proto/recording_file.h"
@@ -35,6 +38,28 @@ const RecordingSummary& RecordingReader::summary() const {
 
 const std::vector<Event>& RecordingReader::events() const {
     return impl_->index.events;
+}
+
+Status RecordingReader::read_probes(const std::function<void(const ProbeSamples&)>& visit) {
+    std::map<std::string, std::vector<ProbeColumn>> columns;  // of each probe, as last told
+    for (const ChunkPlace& place : impl_->index.probes) {
+        auto records = impl_->loader.load(place.offset, place.length);
+        if (!records) return records.error();
+        const mcap::ByteView message = find_probes(*records);
+        auto samples = parse_probe_samples({reinterpret_cast<const char*>(message.data()), message.size()});
+        if (!samples) return damage(impl_->file, place.offset, samples.error().message);
+        for (ProbeSample& sample : samples->samples) {
+            std::vector<ProbeColumn>& known = columns[sample.probe];
+            if (sample.columns.empty()) sample.columns = known;
+            known = sample.columns;
+            // The chunk that told them may be lost.
+            if (sample.columns.size() != sample.values.size()) sample.columns.clear();
+            for (std::size_t k = sample.columns.size(); k < sample.values.size(); ++k)
+                sample.columns.push_back({"value_" + std::to_string(k), "?", {}});
+        }
+        visit(*samples);
+    }
+    return Done{};
 }
 
 std::size_t RecordingReader::frame_count() const {

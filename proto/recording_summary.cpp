@@ -13,7 +13,7 @@ using mcap::OpenRecord;
 
 namespace {
 
-constexpr std::array kChannels{kFrames, kEvents, kCommands};
+constexpr std::array kChannels{kFrames, kEvents, kCommands, kProbes};
 
 // A run of records of one kind; the format wants summary records grouped.
 struct Group {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -83,6 +84,8 @@ struct RecordingWriter::Impl {
     std::uint64_t gaps{0};
     std::uint64_t last_seq{0};
     std::uint32_t commands{0};
+    std::uint32_t instants{0};                                // of probes
+    std::map<std::string, std::vector<ProbeColumn>> columns;  // of each probe, as last written
 
     std::unique_ptr<ZSTD_CCtx, ContextDeleter> context;
     Bytes head, declarations, compressed, tail;  // of the chunk being written; kept for their memory
@@ -236,6 +239,20 @@ Status RecordingWriter::write_event(const Event& event) {
 Status RecordingWriter::write_command(std::string_view json, double time) {
     const std::uint64_t log_time = nanoseconds(time);
     return impl_->write({kCommands, ++impl_->commands, log_time, log_time, bytes_of(json)});
+}
+
+Status RecordingWriter::write_probes(const ProbeSamples& samples) {
+    ProbeSamples message = samples;
+    for (ProbeSample& sample : message.samples) {
+        std::vector<ProbeColumn>& written = impl_->columns[sample.probe];
+        if (sample.columns == written)
+            sample.columns.clear();
+        else
+            written = sample.columns;
+    }
+    const std::string text = probe_samples_text(message);
+    const std::uint64_t log_time = nanoseconds(samples.time);
+    return impl_->write({kProbes, ++impl_->instants, log_time, log_time, bytes_of(text)});
 }
 
 Status RecordingWriter::finish() {

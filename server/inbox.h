@@ -28,10 +28,10 @@ struct LoadFinished {
 // sim.status with hash: true.
 struct HashWanted {};
 
-using Mutation =
-    std::variant<proto::SceneLoad, proto::SimReset, proto::SimStep, proto::SimRun, proto::SimPause, proto::SimResume,
-                 proto::SimCancel, proto::ParamsSet, proto::ObjectsAdd, proto::ObjectsMove, proto::ObjectsRemove,
-                 HashWanted, proto::ServerShutdown, LoadFinished>;
+using Mutation = std::variant<proto::SceneLoad, proto::SimReset, proto::SimStep, proto::SimRun, proto::SimPause,
+                              proto::SimResume, proto::SimCancel, proto::ParamsSet, proto::ObjectsAdd,
+                              proto::ObjectsMove, proto::ObjectsRemove, proto::ProbesAdd, proto::ProbesRemove,
+                              proto::SimInspect, HashWanted, proto::ServerShutdown, LoadFinished>;
 
 struct InboxItem {
     Token token{};

@@ -28,6 +28,7 @@ Job Job::make(std::uint64_t number, const proto::RunUntil& until, const Place& n
     job.until_time = until.time;
     if (until.duration) job.until_time = now.time + *until.duration;
     job.until_at_rest = until.at_rest.value_or(false);
+    job.until_probe = until.probe;
     if (until.timeout)
         job.timeout_time = now.time + *until.timeout;
     else if (job.until_at_rest)
@@ -59,7 +60,8 @@ std::optional<Clock::time_point> Job::next_step_at(const Place& now, double dt) 
     return pace_wall + std::chrono::duration_cast<Clock::duration>(ahead);
 }
 
-std::optional<Job::End> Job::end(const Place& now, double dt, bool is_at_rest) const {
+std::optional<Job::End> Job::end(const Place& now, double dt, bool is_at_rest,
+                                 const std::optional<std::string>& probe_holds) const {
     using proto::JobState;
     const double slack = 1e-6 * dt;
     if (until_step && now.step >= *until_step)
@@ -67,10 +69,26 @@ std::optional<Job::End> Job::end(const Place& now, double dt, bool is_at_rest) c
     if (until_time && now.time >= *until_time - slack)
         return End{JobState::finished, "time " + seconds(now.time) + " reached"};
     if (until_at_rest && is_at_rest) return End{JobState::finished, "at rest"};
+    if (until_probe && probe_holds) return End{JobState::finished, *probe_holds};
     if (timeout_time && now.time >= *timeout_time - slack)
         return End{JobState::timed_out, std::string(until_at_rest ? "not at rest" : "target not reached") +
                                             " within the time-out at " + seconds(*timeout_time)};
     return std::nullopt;
+}
+
+const char* ended_message(proto::JobState state) {
+    switch (state) {
+        case proto::JobState::finished:
+            return "finished";
+        case proto::JobState::cancelled:
+            return "cancelled";
+        case proto::JobState::timed_out:
+            return "timed out";
+        case proto::JobState::faulted:
+            return "faulted";
+        default:
+            return "ended";
+    }
 }
 
 proto::JobReply Job::reply(proto::JobState state, const std::string& reason, const Place& now) const {

@@ -28,6 +28,7 @@ struct Job {
     std::optional<std::uint64_t> until_step;
     std::optional<double> until_time;  // [s]
     bool until_at_rest{false};
+    std::optional<proto::ProbeConditionDesc> until_probe;
     std::optional<double> timeout_time;  // [s] simulated time at which the job gives up
 
     std::optional<double> pace;     // simulated seconds per wall second
@@ -53,9 +54,14 @@ struct Job {
         std::string reason;
     };
     // Has the target been reached? `dt` [s]: a target time within a millionth of a step counts as reached.
-    std::optional<End> end(const Place& now, double dt, bool is_at_rest) const;
+    // `probe_holds`: in words, when until_probe does.
+    std::optional<End> end(const Place& now, double dt, bool is_at_rest,
+                           const std::optional<std::string>& probe_holds = {}) const;
 
     proto::JobReply reply(proto::JobState state, const std::string& reason, const Place& now) const;
 };
+
+// For a person: "finished", "timed out".
+const char* ended_message(proto::JobState state);
 
 }  // namespace headrace::server

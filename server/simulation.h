@@ -9,6 +9,7 @@
 #include "server/inbox.h"
 #include "server/jobs.h"
 #include "server/outbox.h"
+#include "server/probe_board.h"
 #include "server/status.h"
 
 namespace headrace::publish {
@@ -25,7 +26,7 @@ class Simulation {
   public:
     // All references outlive the simulation.
     Simulation(const SimulationOptions& options, Outbox& outbox, EventLog& events, JobBoard& jobs, StatusBoard& board,
-               publish::FrameHub& hub);
+               ProbeBoard& probe_board, publish::FrameHub& hub);
     ~Simulation();  // stop()
 
     void start();

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "client/writers/scene_view.h"
+#include "proto/shape_bounds.h"
 
 namespace headrace::client {
 
@@ -116,9 +117,39 @@ void draw_solid_box(Raster& raster, const BoxDesc& box) {
     draw_edges(raster, box, true, kSolidEdge, 0.85);
 }
 
+// Facets of the mantle and the two ends on one side, with the rims.
+void draw_cylinder(Raster& raster, const proto::CylinderDesc& cylinder, bool near_side, Rgb color, Rgb edge,
+                   double alpha) {
+    constexpr int kFacets = 60;
+    const Vec3 axis = normalized(cylinder.to - cylinder.from);
+    const auto [side, front] = perpendiculars(axis);
+    const auto normal_at = [&, side = side, front = front](double k) {
+        const double angle = 2 * std::numbers::pi * k / kFacets;
+        return std::cos(angle) * side + std::sin(angle) * front;
+    };
+    const auto is_seen = [&](const Vec3& normal, const Vec3& at) {
+        return (dot(normal, raster.camera().towards_eye(at)) > 0) == near_side;
+    };
+    for (int k = 0; k < kFacets; ++k) {
+        const Vec3 a = cylinder.radius * normal_at(k), b = cylinder.radius * normal_at(k + 1);
+        const std::array<Vec3, 4> facet{cylinder.from + a, cylinder.from + b, cylinder.to + b, cylinder.to + a};
+        if (is_seen(normal_at(k + 0.5), facet[0])) raster.polygon(facet, color, alpha);
+    }
+    for (const bool is_end : {false, true}) {
+        const Vec3& center = is_end ? cylinder.to : cylinder.from;
+        if (!is_seen((is_end ? 1.0 : -1.0) * axis, center)) continue;
+        std::vector<Vec3> rim;
+        for (int k = 0; k < kFacets; ++k) rim.push_back(center + cylinder.radius * normal_at(k));
+        raster.polygon(rim, color, alpha);
+        for (int k = 0; k < kFacets; ++k) raster.line(rim[k], rim[(k + 1) % kFacets], kEdgeWidth, edge, 0.7);
+    }
+}
+
 void draw_container(Raster& raster, const ObjectDesc& object, bool near_side) {
     if (const auto* sphere = std::get_if<SphereDesc>(&object.shape))
         return draw_glass_sphere(raster, *sphere, near_side);
+    if (const auto* cylinder = std::get_if<proto::CylinderDesc>(&object.shape))
+        return draw_cylinder(raster, *cylinder, near_side, kGlass, kGlassEdge, near_side ? 0.03 : 0.12);
     const auto& box = std::get<BoxDesc>(object.shape);
     const Vec3 up = raster.camera().up();
     // The floor a little darker: it carries the scene.
@@ -129,9 +160,13 @@ void draw_container(Raster& raster, const ObjectDesc& object, bool near_side) {
     draw_edges(raster, box, near_side, kGlassEdge, near_side ? 0.9 : 0.45);
 }
 
+// Planes have no end; where they are, the fluid shows.
+bool is_drawn(const ObjectDesc& object) {
+    return !std::holds_alternative<proto::PlaneDesc>(object.shape);
+}
+
 Vec3 center_of(const ObjectDesc& object) {
-    if (const auto* sphere = std::get_if<SphereDesc>(&object.shape)) return sphere->center;
-    const auto& box = std::get<BoxDesc>(object.shape);
+    const BoxDesc box = proto::bounding_box(object.shape);
     return 0.5 * (box.min + box.max);
 }
 
@@ -141,7 +176,7 @@ void draw_objects(Raster& raster, const std::vector<ObjectDesc>& objects) {
     // Translucent things blend from far to near: far walls, obstacles by distance, near walls.
     std::vector<const ObjectDesc*> containers, obstacles;
     for (const ObjectDesc& object : objects)
-        (object.role == ObjectRole::container ? containers : obstacles).push_back(&object);
+        if (is_drawn(object)) (object.role == ObjectRole::container ? containers : obstacles).push_back(&object);
     std::ranges::stable_sort(
         obstacles, {}, [&](const ObjectDesc* object) { return raster.camera().project(center_of(*object)).nearness; });
 
@@ -149,6 +184,9 @@ void draw_objects(Raster& raster, const std::vector<ObjectDesc>& objects) {
     for (const ObjectDesc* obstacle : obstacles) {
         if (const auto* sphere = std::get_if<SphereDesc>(&obstacle->shape))
             draw_solid_sphere(raster, *sphere);
+        else if (const auto* cylinder = std::get_if<proto::CylinderDesc>(&obstacle->shape))
+            for (const bool near_side : {false, true})
+                draw_cylinder(raster, *cylinder, near_side, kSolid, kSolidEdge, near_side ? 0.4 : 0.2);
         else
             draw_solid_box(raster, inside_containers(std::get<BoxDesc>(obstacle->shape), objects));
     }
@@ -159,7 +197,7 @@ void draw_flat_objects(Raster& raster, const std::vector<ObjectDesc>& objects, d
     const Vec3 raise = lift * raster.camera().backward();
     for (const ObjectRole role : {ObjectRole::obstacle, ObjectRole::container})
         for (const ObjectDesc& object : objects) {
-            if (object.role != role) continue;
+            if (object.role != role || !is_drawn(object)) continue;
             std::vector<Vec3> corners;
             if (const auto* disc = std::get_if<SphereDesc>(&object.shape)) {
                 constexpr int kCorners = 180;

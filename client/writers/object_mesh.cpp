@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "client/writers/vec3.h"
+
 namespace headrace::client {
 
 namespace {
@@ -44,6 +46,27 @@ class MeshBuilder {
                 const int k1 = (k + 1) % kMeridians;
                 polygon({here + k, here + k1, next + k1, next + k});
             }
+    }
+
+    // The mantle as quadrilaterals, each end as triangles about its centre.
+    void cylinder(const proto::CylinderDesc& cylinder) {
+        const Vec3 axis = normalized(cylinder.to - cylinder.from);
+        const auto [side, front] = perpendiculars(axis);
+        const std::int32_t first = point_count();
+        for (const Vec3& center : {cylinder.from, cylinder.to})
+            for (int k = 0; k < kMeridians; ++k) {
+                const double azimuth = 2 * std::numbers::pi * k / kMeridians;
+                point(center + cylinder.radius * (std::cos(azimuth) * side + std::sin(azimuth) * front));
+            }
+        const std::int32_t centers = point_count();
+        point(cylinder.from);
+        point(cylinder.to);
+        for (int k = 0; k < kMeridians; ++k) {
+            const std::int32_t a = first + k, b = first + (k + 1) % kMeridians;
+            polygon({a, b, b + kMeridians, a + kMeridians});
+            polygon({centers, b, a});
+            polygon({centers + 1, a + kMeridians, b + kMeridians});
+        }
     }
 
     void rectangle(const BoxDesc& box) {
@@ -111,6 +134,8 @@ VtpPiece make_object_mesh(const std::vector<proto::ObjectDesc>& objects, int dim
             dimensions == 2 ? mesh.rectangle(*box) : mesh.box(*box);
         else if (const auto* sphere = std::get_if<SphereDesc>(&object.shape))
             dimensions == 2 ? mesh.circle(*sphere) : mesh.sphere(*sphere);
+        else if (const auto* cylinder = std::get_if<proto::CylinderDesc>(&object.shape))
+            mesh.cylinder(*cylinder);
         object_of_cell.resize(mesh.cell_count(), static_cast<std::int32_t>(k));
         is_container.resize(mesh.cell_count(), object.role == proto::ObjectRole::container ? 1 : 0);
         names.push_back(object.name);

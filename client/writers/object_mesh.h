@@ -1,5 +1,5 @@
-// Collision objects as polygons, for programs that show meshes: boxes as 6 quadrilaterals, spheres as rings of them; in
-// 2D closed outlines.
+// Collision objects as polygons, for programs that show meshes: boxes as 6 quadrilaterals, spheres and cylinders as
+// rings of facets; in 2D closed outlines. Planes have no end and no polygon.
 #pragma once
 
 #include <vector>

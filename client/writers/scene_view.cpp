@@ -5,10 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "proto/shape_bounds.h"
+
 namespace headrace::client {
 
 namespace {
 
+using proto::bounding_box;
 using proto::BoxDesc;
 using proto::SceneDesc;
 
@@ -28,11 +31,17 @@ Vec3 gravity_of(const SceneDesc& scene) {
     return vector != nullptr ? *vector : Vec3{0, -kGravity, 0};
 }
 
-BoxDesc bounding_box(const proto::ShapeDesc& shape) {
-    if (const auto* box = std::get_if<BoxDesc>(&shape)) return *box;
-    const auto& sphere = std::get<proto::SphereDesc>(shape);
-    const Vec3 extent{sphere.radius, sphere.radius, sphere.radius};
-    return {sphere.center - extent, sphere.center + extent};
+// Planes have no end: they do not say what is to be seen.
+bool is_plane(const proto::ShapeDesc& shape) {
+    return std::holds_alternative<proto::PlaneDesc>(shape);
+}
+
+// [m/s] What a scene's numbers say of the speed at the start; where an expression stands, nothing.
+double stated_speed(const proto::ScalarVec3& velocity) {
+    Vec3 stated{};
+    for (std::size_t k = 0; k < 3; ++k)
+        if (const double* number = std::get_if<double>(&velocity[k])) stated[k] = *number;
+    return length(stated);
 }
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -48,7 +57,8 @@ void include(BoxDesc& bounds, const BoxDesc& box) {
 BoxDesc container_bounds(const std::vector<proto::ObjectDesc>& objects) {
     BoxDesc bounds = kNothing;
     for (const proto::ObjectDesc& object : objects)
-        if (object.role == proto::ObjectRole::container) include(bounds, bounding_box(object.shape));
+        if (object.role == proto::ObjectRole::container && !is_plane(object.shape))
+            include(bounds, bounding_box(object.shape));
     return bounds;
 }
 
@@ -90,7 +100,7 @@ BoxDesc visible_bounds(const SceneDesc& scene) {
     BoxDesc bounds = container_bounds(scene.objects);
     for (const proto::FluidDesc& fluid : scene.fluids) include(bounds, bounding_box(fluid.shape));
     for (const proto::ObjectDesc& object : scene.objects)
-        if (object.role == proto::ObjectRole::obstacle)
+        if (object.role == proto::ObjectRole::obstacle && !is_plane(object.shape))
             include(bounds, inside_containers(bounding_box(object.shape), scene.objects));
     if (bounds.min[0] > bounds.max[0]) bounds = {scene.domain.min, scene.domain.max};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -151,7 +161,7 @@ ColorScale make_color_scale(const SceneDesc& scene, const PictureOptions& option
     switch (options.color_field) {
         case proto::Field::velocity: {
             double start = 0;  // [m/s] fastest fluid at the start
-            for (const proto::FluidDesc& fluid : scene.fluids) start = std::max(start, length(fluid.velocity));
+            for (const proto::FluidDesc& fluid : scene.fluids) start = std::max(start, stated_speed(fluid.velocity));
             scale.max = rounded_up(std::sqrt(start * start + 2 * g * height));
             break;
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 #include "proto/scene_desc.h"
 
@@ -29,6 +30,13 @@ inline Vec3 normalized(const Vec3& a) {
 }
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Two unit vectors at right angles to a unit vector and to each other; cross(first, second) = axis.
+inline std::pair<Vec3, Vec3> perpendiculars(const Vec3& axis) {
+    const Vec3 other = std::abs(axis[1]) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+    const Vec3 first = normalized(cross(other, axis));
+    return {first, cross(axis, first)};
 }
 
 // Corner k of a box, 0 <= k < 8: bit 0 takes x, bit 1 y, bit 2 z from max.

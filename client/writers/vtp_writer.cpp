@@ -36,16 +36,9 @@ VtpArray make_array(const FrameColumn& column, std::size_t rows) {
 }
 
 bool same_objects(const std::vector<proto::ObjectDesc>& a, const std::vector<proto::ObjectDesc>& b) {
-    const auto same_shape = [](const proto::ShapeDesc& p, const proto::ShapeDesc& q) {
-        if (p.index() != q.index()) return false;
-        if (const auto* box = std::get_if<proto::BoxDesc>(&p))
-            return box->min == std::get<proto::BoxDesc>(q).min && box->max == std::get<proto::BoxDesc>(q).max;
-        const auto &s = std::get<proto::SphereDesc>(p), &t = std::get<proto::SphereDesc>(q);
-        return s.center == t.center && s.radius == t.radius;
-    };
     if (a.size() != b.size()) return false;
     for (std::size_t k = 0; k < a.size(); ++k)
-        if (a[k].name != b[k].name || a[k].role != b[k].role || !same_shape(a[k].shape, b[k].shape)) return false;
+        if (a[k].name != b[k].name || a[k].role != b[k].role || a[k].shape != b[k].shape) return false;
     return true;
 }
 

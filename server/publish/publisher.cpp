@@ -59,7 +59,7 @@ std::string listen(zmq::socket_t& socket, const std::string& endpoint) {
 
 struct Publisher::Impl {
     Impl(zmq::context_t& context, const PublisherOptions& options, FrameHub& frame_hub, server::EventLog& event_log,
-         const server::StatusBoard& status_board, server::Outbox& replies)
+         const server::StatusBoard& status_board, server::ProbeBoard& probe_board, server::Outbox& replies)
         : hub(frame_hub),
           events(event_log),
           board(status_board),
@@ -69,7 +69,7 @@ struct Publisher::Impl {
           data(make_socket(context, zmq::socket_type::router, options.data_endpoint)),
           live(hub, frames_socket, options.session),
           lossless(hub, data, options.session, events, board),
-          recorder(hub, events, board, options.session, options.data_folder),
+          recorder({hub, events, board, probe_board}, options.session, options.data_folder),
           data_socket(hub, data, lossless, board, options.session, static_cast<std::size_t>(options.soft_message_limit),
                       [this] { deliver_captures(); }) {
         events_socket.set(zmq::sockopt::sndhwm, 10'000);
@@ -86,6 +86,7 @@ struct Publisher::Impl {
         frames_endpoint = listen(frames_socket, options.frames_endpoint);
         data_endpoint = listen(data, options.data_endpoint);
         events.add_listener(hub.doorbell());
+        probe_board.add_listener(hub.doorbell());
     }
 
     // ---- the thread -------------------------------------------------------------------------------------------------
@@ -108,6 +109,7 @@ struct Publisher::Impl {
     void turn() {
         wait();
         hub.doorbell().quiet();
+        recorder.take_probes();
         deliver_captures();
         for (const DemandId id : hub.take_failed())
             fail_consumer(id, "a frame could not be kept: the window was full (on_stall: fail), or memory is short");
@@ -196,6 +198,7 @@ struct Publisher::Impl {
     proto::Result<proto::Reply> carry_out(const PublisherRequest& wanted) {
         try {
             // What happened before the request comes before its effect: a recording that ends here has it all.
+            recorder.take_probes();
             deliver_captures();
             publish_events();
             return std::visit([&](const auto& request) { return handle(request); }, wanted);
@@ -293,8 +296,8 @@ struct Publisher::Impl {
 };
 
 Publisher::Publisher(zmq::context_t& context, const PublisherOptions& options, FrameHub& hub, server::EventLog& events,
-                     const server::StatusBoard& board, server::Outbox& outbox)
-    : impl_(std::make_unique<Impl>(context, options, hub, events, board, outbox)) {}
+                     const server::StatusBoard& board, server::ProbeBoard& probes, server::Outbox& outbox)
+    : impl_(std::make_unique<Impl>(context, options, hub, events, board, probes, outbox)) {}
 
 Publisher::~Publisher() {
     stop();

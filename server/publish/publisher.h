@@ -10,6 +10,7 @@
 #include "proto/messages.h"
 #include "server/event_log.h"
 #include "server/outbox.h"
+#include "server/probe_board.h"
 #include "server/publish/frame_hub.h"
 #include "server/status.h"
 
@@ -39,7 +40,7 @@ class Publisher {
   public:
     // Binds the three sockets; throws std::runtime_error naming the endpoint when one cannot be bound.
     Publisher(zmq::context_t& context, const PublisherOptions& options, FrameHub& hub, server::EventLog& events,
-              const server::StatusBoard& board, server::Outbox& outbox);
+              const server::StatusBoard& board, server::ProbeBoard& probes, server::Outbox& outbox);
     ~Publisher();  // stop()
 
     // The endpoints as bound, with the ports that were taken.

@@ -75,7 +75,16 @@ proto::Result<proto::RecordStartReply> Recorder::start(const proto::RecordStart&
     demand.every_steps = request.every_steps.value_or(1);
     demand.interval = request.interval.value_or(now->scene->output.interval);
     demand.credits = 4;  // enough to write one while the next is computed
+    // The samples of the present state, and all that come.
+    const server::ProbeBoard::Instant present = probes_.begin_queue();
+    recording.first_instant = present.number;
     recording.demand = hub_.add(demand);
+    if (present.number > 0 && present.generation == recording.generation && present.samples.time >= now->status.time)
+        if (const proto::Status written = recording.writer->write_probes(present.samples); !written) {
+            hub_.remove(recording.demand);
+            if (recordings_.empty()) probes_.end_queue();
+            return written.error();
+        }
 
     const std::string id = "rec/" + std::to_string(++started_);
     recordings_.emplace(id, std::move(recording));
@@ -99,6 +108,7 @@ proto::Result<proto::RecordStopReply> Recorder::stop(const std::optional<std::st
 }
 
 void Recorder::stop_all(const std::string& why) {
+    take_probes();
     while (!recordings_.empty()) finish(recordings_.begin(), why);
 }
 
@@ -118,19 +128,25 @@ proto::RecordStopReply Recorder::finish(Place place, const std::string& why) {
         report("record.stopped", id, std::to_string(reply.frames) + " frames in " + recording.file + ", ended " + why);
     else
         report("record.failed", id, finished.error().message + "; complete frames stay readable");
-    recordings_.erase(place);
+    forget(place);
     return reply;
 }
 
+Recorder::Place Recorder::find(DemandId demand) {
+    return std::find_if(recordings_.begin(), recordings_.end(),
+                        [&](const auto& entry) { return entry.second.demand == demand; });
+}
+
 bool Recorder::deliver(const CaptureFor& capture) {
-    const auto place = std::find_if(recordings_.begin(), recordings_.end(),
-                                    [&](const auto& entry) { return entry.second.demand == capture.demand; });
+    Place place = find(capture.demand);
     if (place == recordings_.end()) return false;
-    auto& [id, recording] = *place;
-    if (capture.capture->generation != recording.generation) {
-        finish(place, "because another scene was loaded");
+    if (capture.capture->generation != place->second.generation) {
+        take_probes();  // what was sampled before the end; it may end by that
+        place = find(capture.demand);
+        if (place != recordings_.end()) finish(place, "because another scene was loaded");
         return true;
     }
+    auto& [id, recording] = *place;
     const zmq::message_t frame = encode_capture(*capture.capture, recording.fields, id, session_, ++recording.seq);
     const proto::Status written =
         recording.writer->write_frame({static_cast<const std::byte*>(frame.data()), frame.size()});
@@ -140,11 +156,22 @@ bool Recorder::deliver(const CaptureFor& capture) {
 }
 
 bool Recorder::fail(DemandId demand, const std::string& why) {
-    const auto place = std::find_if(recordings_.begin(), recordings_.end(),
-                                    [&](const auto& entry) { return entry.second.demand == demand; });
+    const Place place = find(demand);
     if (place == recordings_.end()) return false;
     fail(place, {ErrorCode::internal_error, why, "", "what was recorded before stays readable"});
     return true;
+}
+
+void Recorder::take_probes() {
+    for (const server::ProbeBoard::Instant& instant : probes_.take()) {
+        for (auto place = recordings_.begin(); place != recordings_.end();) {
+            const auto current = place++;
+            Recording& recording = current->second;
+            if (instant.number <= recording.first_instant || instant.generation != recording.generation) continue;
+            if (const proto::Status written = recording.writer->write_probes(instant.samples); !written)
+                fail(current, written.error());
+        }
+    }
 }
 
 void Recorder::write_event(const proto::Event& event) {
@@ -167,7 +194,12 @@ void Recorder::write_command(const std::string& json, double time) {
 void Recorder::fail(Place place, const Error& error) {
     hub_.remove(place->second.demand);
     report("record.failed", place->first, error.message + "; " + error.hint);
+    forget(place);
+}
+
+void Recorder::forget(Place place) {
     recordings_.erase(place);
+    if (recordings_.empty()) probes_.end_queue();
 }
 
 void Recorder::report(const std::string& type, const std::string& recording, const std::string& message) const {

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "proto/suggest.h"
-#include "server/scene/sampling.h"
+#include "server/scene/body_force.h"
+#include "server/scene/collision_objects.h"
 #include "server/scene/shapes.h"
+#include "server/scene/starts.h"
 #include "server/scene/validate.h"
 #include "server/solver/models/registry.h"
 
@@ -20,28 +22,12 @@ using proto::ErrorCode;
 using proto::Result;
 using proto::Status;
 
-// Positions and velocities of all fluids in the scene's order; ids count up from 0.
-Result<solver::Particles> sample_fluids(const proto::SceneDesc& scene, BuildControl& control) {
-    const auto count = static_cast<std::size_t>(count_particles(scene));
+constexpr const char* kOtherModelHint = "leave it out, or choose another model: scene.model";
 
-    solver::Particles particles;
-    particles.dimensions = scene.dimensions;
-    particles.resize(count);
-    std::size_t slot = 0;
-    for (const proto::FluidDesc& fluid : scene.fluids)
-        for_each_lattice_point(fluid.shape, scene.dimensions, scene.spacing, [&](const proto::Vec3& x) {
-            for (int k = 0; k < scene.dimensions; ++k) {
-                particles.x[k][slot] = x[k];
-                particles.v[k][slot] = fluid.velocity[k];
-            }
-            particles.id[slot] = static_cast<solver::Index>(slot);
-            ++slot;
-            if (slot % 65'536 == 0)
-                control.progress = 0.4 + 0.3 * static_cast<double>(slot) / static_cast<double>(count);
-            return !control.cancelled;
-        });
-    if (control.cancelled) return cancelled_error();
-    return particles;
+// A command's object was refused, not a scene's.
+Error as_params_error(Error error) {
+    if (error.code == ErrorCode::scene_invalid) error.code = ErrorCode::invalid_params;
+    return error;
 }
 
 // Extent of the particles against gravity, one spacing for the particles' own size included; without gravity the
@@ -62,17 +48,13 @@ double height_of(const solver::Particles& particles, const solver::Vec3& gravity
 
 }  // namespace
 
-std::int64_t count_particles(const proto::SceneDesc& scene) {
-    std::int64_t count = 0;
-    for (const proto::FluidDesc& fluid : scene.fluids) {
-        if (std::holds_alternative<proto::BoxDesc>(fluid.shape)) {
-            count += lattice_size(fluid.shape, scene.dimensions, scene.spacing);
-            continue;
-        }
-        for_each_lattice_point(fluid.shape, scene.dimensions, scene.spacing,
-                               [&](const proto::Vec3&) { return ++count, true; });
-    }
-    return count;
+// An object as the model takes it. Errors: scene_invalid below `path`.
+Result<solver::CollisionObject> Run::make_object(const proto::ObjectDesc& object, const std::string& path) const {
+    auto collision = make_collision_object(object, scene_.dimensions, scene_.spacing, path);
+    if (!collision) return collision;
+    if (const auto refusal = model_->refuse_object(*collision))
+        return Error{ErrorCode::scene_invalid, *refusal, path, kOtherModelHint};
+    return collision;
 }
 
 Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildControl* control) {
@@ -82,17 +64,31 @@ Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildCont
 
     std::unique_ptr<Run> run(new Run);
     run->scene_ = scene;
-    run->domain_ = {scene.domain.min, scene.domain.max};
+    run->domain_ = {scene.domain.min, scene.domain.max, scene.domain.periodic};
+    run->model_ = solver::make_model(scene.model, scene.dimensions, scene.spacing, scene.parameters);
+    if (const auto refusal = run->model_->refuse_domain(run->domain_))
+        return Error{ErrorCode::scene_invalid, *refusal, "scene.domain", kOtherModelHint};
     run->object_descs_ = scene.objects;
-    for (const proto::ObjectDesc& object : scene.objects)
-        run->objects_.push_back(to_collision_object(object, scene.dimensions));
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+        auto object = run->make_object(scene.objects[k], "scene.objects[" + std::to_string(k) + "]");
+        if (!object) return object.error();
+        run->objects_.push_back(std::move(*object));
+    }
+    auto body_force = make_body_force(scene);
+    if (!body_force) return body_force.error();
+    run->body_force_ = std::move(*body_force);
+    if (const auto refusal = run->model_->refuse_body_force(); refusal && run->body_force_)
+        return Error{ErrorCode::scene_invalid, *refusal,
+                     scene.frame_acceleration ? "scene.frame_acceleration" : "scene.body_force", kOtherModelHint};
 
-    Result<solver::Particles> particles = sample_fluids(scene, watched);
+    Result<solver::Particles> particles = place_fluids(scene, watched);
     if (!particles) return particles.error();
     run->particles_ = std::move(*particles);
-
-    run->model_ = solver::make_model(scene.model, scene.dimensions, scene.spacing, scene.parameters);
     run->fluid_height_ = height_of(run->particles_, run->model_->gravity(), scene.spacing);
+    if (Status status = set_start(scene, *run->model_, run->surroundings(), run->particles_); !status)
+        return status.error();
+    if (run->body_force_)
+        if (Status status = check_body_force(scene, *run->body_force_, run->particles_); !status) return status.error();
     run->report_ = run->model_->initialise(run->particles_, run->surroundings());
     if (run->report_.fault)
         return Error{ErrorCode::scene_invalid,
@@ -115,7 +111,7 @@ std::vector<solver::Stage> Run::plan() const {
 }
 
 solver::Diagnostics Run::diagnostics() const {
-    return solver::compute_diagnostics(particles_, model_->particle_mass(), model_->gravity());
+    return solver::compute_diagnostics(particles_, model_->gravity());
 }
 
 Status Run::set_parameters(const proto::Parameters& values, proto::Parameters* previous) {
@@ -138,19 +134,19 @@ Result<std::size_t> Run::find_object(const std::string& name) const {
 }
 
 Status Run::add_object(const proto::ObjectDesc& object) {
-    if (Status status = validate_object(object, scene_.dimensions, "params.object"); !status) {
-        Error error = status.error();
-        error.code = ErrorCode::invalid_params;
-        return error;
-    }
+    if (Status status = validate_object(object, scene_.dimensions, "params.object"); !status)
+        return as_params_error(status.error());
     if (find_object(object.name))
         return Error{ErrorCode::object_exists, "there is an object \"" + object.name + "\" already",
                      "params.object.name", "choose another name, or objects.remove it first"};
     if (object_descs_.size() >= kMostObjects)
         return Error{ErrorCode::limit_exceeded, "there are " + std::to_string(kMostObjects) + " objects already",
                      "params.object", "objects.remove some first"};
+    auto collision = make_object(object, "params.object");
+    if (!collision) return as_params_error(collision.error());
     object_descs_.push_back(object);
-    objects_.push_back(to_collision_object(object, scene_.dimensions));
+    objects_.push_back(std::move(*collision));
+    ++objects_version_;
     return Done{};
 }
 
@@ -164,13 +160,15 @@ Status Run::move_object(const std::string& name, const std::optional<proto::Vec3
         const proto::Vec3 center = center_of(object.shape);
         for (int k = 0; k < scene_.dimensions; ++k) displacement[k] = (*to)[k] - center[k];
     }
-    proto::ObjectDesc moved = object;
-    moved.shape = moved_by(object.shape, displacement);
+    proto::ObjectDesc moved = moved_by(object, displacement);
     if (Status status = validate_object(moved, scene_.dimensions, "params"); !status)
         return Error{ErrorCode::invalid_params, "the object would leave the range of numbers",
                      to ? "params.to" : "params.by", "move it by less"};
+    auto collision = make_object(moved, "params");
+    if (!collision) return as_params_error(collision.error());
     object = std::move(moved);
-    objects_[*found] = to_collision_object(object, scene_.dimensions);
+    objects_[*found] = std::move(*collision);
+    ++objects_version_;
     return Done{};
 }
 
@@ -179,6 +177,7 @@ Status Run::remove_object(const std::string& name) {
     if (!found) return found.error();
     object_descs_.erase(object_descs_.begin() + static_cast<std::ptrdiff_t>(*found));
     objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(*found));
+    ++objects_version_;
     return Done{};
 }
 

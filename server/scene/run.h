@@ -11,6 +11,7 @@
 #include "proto/result.h"
 #include "proto/scene_desc.h"
 #include "server/scene/build_control.h"
+#include "server/scene/sampling.h"
 #include "server/solver/diagnostics.h"
 #include "server/solver/model.h"
 
@@ -39,6 +40,13 @@ class Run {
     std::vector<solver::Stage> plan() const;
     solver::Diagnostics diagnostics() const;
 
+    // What the next step sees besides the particles; valid until the next step or mutation.
+    solver::Surroundings surroundings() const {
+        return {objects_, domain_, time_, body_force_ ? &*body_force_ : nullptr, objects_version_};
+    }
+    // Probes of energies: costs time only while on.
+    void follow_energies(bool on) { model_->follow_energies(on); }
+
     // Mutations between steps. Errors carry the path below "params".
     proto::Status set_parameters(const proto::Parameters& values, proto::Parameters* previous = nullptr);
     const std::vector<proto::ObjectDesc>& objects() const { return object_descs_; }
@@ -49,22 +57,21 @@ class Run {
 
   private:
     Run() = default;
-    solver::Surroundings surroundings() const { return {objects_, domain_}; }
     proto::Result<std::size_t> find_object(const std::string& name) const;
+    proto::Result<solver::CollisionObject> make_object(const proto::ObjectDesc& object, const std::string& path) const;
 
     proto::SceneDesc scene_;
     solver::Particles particles_;
     std::vector<proto::ObjectDesc> object_descs_;   // as they are now
     std::vector<solver::CollisionObject> objects_;  // the same, for the solver
+    std::uint64_t objects_version_{0};              // counts their changes
     solver::Domain domain_;
+    std::optional<solver::BodyForce> body_force_;
     std::unique_ptr<solver::Model> model_;
     solver::StepReport report_;
     std::uint64_t step_number_{0};
     double time_{0.0};
     double fluid_height_{0.0};
 };
-
-// How many particles the fluids of a scene give, without making them.
-std::int64_t count_particles(const proto::SceneDesc& scene);
 
 }  // namespace headrace::scene

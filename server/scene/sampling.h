@@ -16,4 +16,8 @@ std::int64_t lattice_size(const proto::ShapeDesc& shape, int dimensions, double 
 void for_each_lattice_point(const proto::ShapeDesc& shape, int dimensions, double spacing,
                             const std::function<bool(const proto::Vec3&)>& visit);
 
+// How many particles a fluid, all fluids of a scene give, without making them.
+std::int64_t count_particles(const proto::FluidDesc& fluid, int dimensions, double spacing);
+std::int64_t count_particles(const proto::SceneDesc& scene);
+
 }  // namespace headrace::scene

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "proto/suggest.h"
+#include "server/scene/body_force.h"
+#include "server/scene/collision_objects.h"
+#include "server/scene/expressions.h"
 #include "server/scene/sampling.h"
 #include "server/scene/shapes.h"
 #include "server/solver/models/registry.h"
@@ -17,6 +21,7 @@ namespace {
 using proto::Done;
 using proto::Error;
 using proto::ErrorCode;
+using proto::is_finite;
 using proto::Status;
 
 Error invalid(std::string path, std::string message, std::string hint) {
@@ -25,26 +30,6 @@ Error invalid(std::string path, std::string message, std::string hint) {
 
 std::string indexed(const char* list, std::size_t index) {
     return std::string("scene.") + list + "[" + std::to_string(index) + "]";
-}
-
-Status validate_shape(const proto::ShapeDesc& shape, int dimensions, const std::string& path) {
-    if (const auto* box = std::get_if<proto::BoxDesc>(&shape)) {
-        for (int k = 0; k < dimensions; ++k) {
-            if (!std::isfinite(box->min[k]) || !std::isfinite(box->max[k]))
-                return invalid(path + ".box", "corners must be finite", "give lengths in m");
-            if (!(box->min[k] < box->max[k]))
-                return invalid(path + ".box.max[" + std::to_string(k) + "]", "must be greater than min on each axis",
-                               "swap the corners, or give the box an extent");
-        }
-        return Done{};
-    }
-    const auto& sphere = std::get<proto::SphereDesc>(shape);
-    for (int k = 0; k < dimensions; ++k)
-        if (!std::isfinite(sphere.center[k]))
-            return invalid(path + ".sphere.center", "must be finite", "give lengths in m");
-    if (!(std::isfinite(sphere.radius) && sphere.radius > 0.0))
-        return invalid(path + ".sphere.radius", "must be greater than 0 m", "give a radius in m");
-    return Done{};
 }
 
 Status validate_basics(const proto::SceneDesc& scene) {
@@ -57,6 +42,9 @@ Status validate_basics(const proto::SceneDesc& scene) {
               scene.domain.min[k] < scene.domain.max[k]))
             return invalid("scene.domain", "max must be greater than min on each axis, both finite",
                            "give a box that holds every container");
+    if (scene.dimensions == 2 && scene.domain.periodic[2])
+        return invalid("scene.domain.periodic[2]", "must be false in a scene of 2 dimensions",
+                       "leave the third value out");
     const auto models = solver::model_names();
     if (std::find(models.begin(), models.end(), scene.model) == models.end())
         return invalid("scene.model", "no model \"" + scene.model + "\"", proto::suggest(scene.model, models));
@@ -101,6 +89,33 @@ Status validate_objects(const proto::SceneDesc& scene) {
     return Done{};
 }
 
+Status validate_fluid_start(const proto::FluidDesc& fluid, const std::string& path) {
+    if (fluid.pressure && fluid.hydrostatic)
+        return invalid(path + ".hydrostatic", "cannot be given together with pressure", "give one of the two");
+    if (!(fluid.start.jitter >= 0.0 && fluid.start.jitter <= 0.5))
+        return invalid(path + ".start.jitter", "must be at least 0 and at most 0.5 spacings",
+                       "at 0.5 two particles may meet; 0.1 to 0.2 is usual");
+    return Done{};
+}
+
+// A fluid from one end of a period to the other must go on beyond it as it does inside.
+Status validate_period(const proto::SceneDesc& scene, const proto::FluidDesc& fluid, const std::string& path) {
+    const proto::BoxDesc bounds = bounding_box(fluid.shape);
+    for (int k = 0; k < scene.dimensions; ++k) {
+        const double period = scene.domain.max[k] - scene.domain.min[k];
+        const double slack = 1e-6 * scene.spacing;  // a thousandth of what would be felt
+        const bool spans = bounds.min[k] <= scene.domain.min[k] + slack && bounds.max[k] >= scene.domain.max[k] - slack;
+        if (!scene.domain.periodic[k] || !spans) continue;
+        const double cells = period / scene.spacing, whole = std::max(1.0, std::round(cells));
+        if (std::abs(cells - whole) <= 1e-6 * whole) continue;
+        return invalid(path + ".shape",
+                       "fills a period of " + std::to_string(cells) + " spacings: the lattice would not go on evenly",
+                       "make the domain a whole number of spacings along that axis, or scene.spacing " +
+                           std::to_string(period / whole) + " m");
+    }
+    return Done{};
+}
+
 // Shapes and counts; cheap, so that a scene of absurd size is refused before a particle is made.
 Status validate_fluids(const proto::SceneDesc& scene) {
     if (scene.fluids.empty()) return invalid("scene.fluids", "there is no fluid", "give at least one fluid");
@@ -112,6 +127,10 @@ Status validate_fluids(const proto::SceneDesc& scene) {
         if (!names.insert(fluid.name).second)
             return invalid(path + ".name", "there is a fluid \"" + fluid.name + "\" already", "names are unique");
         if (Status status = validate_shape(fluid.shape, scene.dimensions, path + ".shape"); !status) return status;
+        if (!is_finite(bounding_box(fluid.shape), scene.dimensions))
+            return invalid(path + ".shape", "has no end", "intersect the plane with a shape that has one");
+        if (Status status = validate_fluid_start(fluid, path); !status) return status;
+        if (Status status = validate_period(scene, fluid, path); !status) return status;
         const std::int64_t cells = lattice_size(fluid.shape, scene.dimensions, scene.spacing);
         if (cells == 0)
             return invalid(path + ".shape", "is thinner than half a spacing, it holds no particle",
@@ -124,10 +143,50 @@ Status validate_fluids(const proto::SceneDesc& scene) {
     return Done{};
 }
 
-// A start inside an obstacle or outside a container would be a violent projection at the first step.
-Status validate_start(const proto::SceneDesc& scene, BuildControl& control) {
+// What expressions and tables say; a start outside of the fluid's own place is no matter here.
+Status validate_formulas(const proto::SceneDesc& scene) {
+    const Symbols symbols{.dimensions = scene.dimensions, .spacing = scene.spacing, .position = true};
+    for (std::size_t k = 0; k < scene.fluids.size(); ++k) {
+        const std::string path = indexed("fluids", k);
+        const auto velocity = compile_vector(scene.fluids[k].velocity, symbols, path + ".velocity");
+        if (!velocity) return velocity.error();
+        if (!scene.fluids[k].pressure) continue;
+        const auto pressure = Formula::compile(*scene.fluids[k].pressure, symbols, path + ".pressure");
+        if (!pressure) return pressure.error();
+    }
+    if (const auto force = make_body_force(scene); !force) return force.error();
+    return Done{};
+}
+
+// Why the fluid cannot start with a particle at x, told of its shape.
+Status check_place(const proto::SceneDesc& scene, const std::vector<std::optional<solver::RigidState>>& states,
+                   const proto::Vec3& x, const std::string& path) {
     const proto::ShapeDesc domain = proto::BoxDesc{scene.domain.min, scene.domain.max};
     const double slack = 1e-9 * scene.spacing;  // rounding in the document
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        const proto::ObjectDesc& object = scene.objects[k];
+        if (may_hold_fluid(object, states[k], x, scene.dimensions, slack)) continue;
+        if (std::holds_alternative<proto::PlaneDesc>(object.shape))
+            return invalid(path, "reaches behind plane \"" + object.name + "\"",
+                           "shrink the fluid or move the plane; its normal points towards the fluid");
+        if (object.role == proto::ObjectRole::container)
+            return invalid(path, "reaches out of container \"" + object.name + "\"",
+                           "shrink the fluid or enlarge the container");
+        return invalid(path, "overlaps obstacle \"" + object.name + "\"", "shrink the fluid or move the obstacle");
+    }
+    if (!contains(domain, x, scene.dimensions))
+        return invalid(path, "reaches out of the domain", "enlarge scene.domain");
+    return Done{};
+}
+
+// A start inside an obstacle or outside a container would be a violent projection at the first step.
+Status validate_start(const proto::SceneDesc& scene, BuildControl& control) {
+    std::vector<std::optional<solver::RigidState>> states(scene.objects.size());  // of the moving objects
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+        auto object = make_collision_object(scene.objects[k], scene.dimensions, scene.spacing, indexed("objects", k));
+        if (!object) return object.error();
+        if (object->motion) states[k] = object->motion(0.0);
+    }
     for (std::size_t k = 0; k < scene.fluids.size(); ++k) {
         Status outcome = Done{};
         const std::string path = indexed("fluids", k) + ".shape";
@@ -136,17 +195,7 @@ Status validate_start(const proto::SceneDesc& scene, BuildControl& control) {
         for_each_lattice_point(scene.fluids[k].shape, scene.dimensions, scene.spacing, [&](const proto::Vec3& x) {
             ++points;
             if (points % 65'536 == 0) control.progress = 0.4 * static_cast<double>(points) / static_cast<double>(cells);
-            if (!contains(domain, x, scene.dimensions))
-                outcome = invalid(path, "reaches out of the domain", "enlarge scene.domain");
-            for (const proto::ObjectDesc& object : scene.objects) {
-                const bool is_container = object.role == proto::ObjectRole::container;
-                if (contains(object.shape, x, scene.dimensions, is_container ? slack : -slack) == is_container)
-                    continue;
-                outcome = is_container ? invalid(path, "reaches out of container \"" + object.name + "\"",
-                                                 "shrink the fluid or enlarge the container")
-                                       : invalid(path, "overlaps obstacle \"" + object.name + "\"",
-                                                 "shrink the fluid or move the obstacle");
-            }
+            outcome = check_place(scene, states, x, path);
             return outcome.ok() && !control.cancelled;
         });
         if (control.cancelled) return cancelled_error();
@@ -169,17 +218,13 @@ proto::Error parameter_error(const solver::ParameterError& refusal, const std::v
             proto::suggest(refusal.name, names)};
 }
 
-proto::Status validate_object(const proto::ObjectDesc& object, int dimensions, const std::string& path) {
-    if (object.name.empty()) return invalid(path + ".name", "is empty", "name the object");
-    return validate_shape(object.shape, dimensions, path + ".shape");
-}
-
 proto::Error cancelled_error() {
     return {ErrorCode::cancelled, "loading was cancelled", "", "load it again"};
 }
 
 proto::Status validate(const proto::SceneDesc& scene, BuildControl& control) {
-    for (const auto& check : {validate_basics, validate_parameters, validate_objects, validate_fluids})
+    for (const auto& check :
+         {validate_basics, validate_parameters, validate_objects, validate_fluids, validate_formulas})
         if (Status status = check(scene); !status) return status;
     return validate_start(scene, control);
 }

@@ -20,6 +20,9 @@ proto::Status validate(const proto::SceneDesc& scene, BuildControl& control);
 
 proto::Error cancelled_error();
 
+// A shape by itself; a plane, or what has one for a part, may be without an end.
+proto::Status validate_shape(const proto::ShapeDesc& shape, int dimensions, const std::string& path);
+
 // One object by itself: finite, positive extents. `path` names it in errors.
 proto::Status validate_object(const proto::ObjectDesc& object, int dimensions, const std::string& path);
 

@@ -10,6 +10,7 @@
 #include "server/event_log.h"
 #include "server/inbox.h"
 #include "server/jobs.h"
+#include "server/probe_board.h"
 #include "server/publish/publisher.h"
 #include "server/service/command_table.h"
 #include "server/service/pending_replies.h"
@@ -24,6 +25,7 @@ struct CommandContext {
     const StatusBoard& board;
     const EventLog& events;
     const JobBoard& jobs;
+    const ProbeBoard& probes;
     proto::HelloReply hello;
     std::function<void(Token, Mutation)> to_simulation;
     std::function<void(Token, publish::PublisherRequest)> to_publisher;
@@ -38,6 +40,7 @@ struct CommandContext {
 void add_query_commands(CommandTable& table, CommandContext& context);
 void add_scene_commands(CommandTable& table, CommandContext& context);
 void add_run_commands(CommandTable& table, CommandContext& context);
+void add_probe_commands(CommandTable& table, CommandContext& context);
 void add_stream_commands(CommandTable& table, CommandContext& context);
 
 // All of them, in the order of the protocol's description.

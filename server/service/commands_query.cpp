@@ -102,6 +102,7 @@ void add_commands(CommandTable& table, CommandContext& context) {
     add_query_commands(table, context);
     add_scene_commands(table, context);
     add_run_commands(table, context);
+    add_probe_commands(table, context);
     add_stream_commands(table, context);
 }
 

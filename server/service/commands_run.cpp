@@ -80,8 +80,9 @@ void add_prompt_mutation(CommandTable& table, CommandContext& context, std::stri
 void add_run_commands(CommandTable& table, CommandContext& context) {
     add_mutation<proto::SimStep>(table, context, "sim.step",
                                  {{ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
-    add_mutation<proto::SimRun>(table, context, "sim.run",
-                                {{ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
+    add_mutation<proto::SimRun>(
+        table, context, "sim.run",
+        {{ErrorCode::probe_not_found, ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
     add_prompt_mutation<proto::SimPause>(table, context, "sim.pause", {{ErrorCode::wrong_state, ErrorCode::busy}});
     add_mutation<proto::SimResume>(table, context, "sim.resume", {{ErrorCode::wrong_state, ErrorCode::busy}});
     add_prompt_mutation<proto::SimCancel>(table, context, "sim.cancel", {});

@@ -127,17 +127,27 @@ Json describe_models() {
     return models;
 }
 
+// Schemas refer to "#/$defs/...": in the document they stand in, that is its own root.
+void collect_definitions(const Json& methods, Json& definitions) {
+    for (const Json& method : methods)
+        for (const Json* schema : {&method["x-params-schema"], &method["result"]["schema"]})
+            if (const auto found = schema->find("$defs"); found != schema->end()) definitions.update(*found);
+}
+
 }  // namespace
 
 Json make_description(const CommandTable& table) {
     Json methods = Json::array();
     for (const CommandTable::Entry& entry : table.entries()) methods.push_back(describe_method(entry));
+    Json definitions = Json::object();
+    collect_definitions(methods, definitions);
     return {{"openrpc", "1.2.6"},
             {"info",
              {{"title", "headraced"},
               {"version", proto::kProgramVersion},
               {"description", "A fluid simulation that is commanded while it runs. SI units throughout."}}},
             {"methods", std::move(methods)},
+            {"$defs", std::move(definitions)},
             {"x-protocol", proto::kProtocolVersion},
             {"x-sockets", describe_sockets()},
             {"x-state", describe_states()},

@@ -102,9 +102,9 @@ struct Server::Impl {
           threads(options.threads > 0 ? options.threads : omp_get_max_threads()),
           zmq(kIoThreads),
           socket(make_command_socket(zmq, endpoints.control)),
-          simulation({threads}, outbox, events, jobs, board, hub),
+          simulation({threads}, outbox, events, jobs, board, probes, hub),
           publisher(zmq, publisher_options(endpoints, checked_folder(options.data_folder), session_number), hub, events,
-                    board, outbox),
+                    board, probes, outbox),
           context(make_context()),
           table([this] { return board.read()->status.state; }, [this](const CallReport& call) { log_call(call); }) {
         hub.set_waker([this] { simulation.wake(); });
@@ -117,6 +117,7 @@ struct Server::Impl {
             .board = board,
             .events = events,
             .jobs = jobs,
+            .probes = probes,
             .hello = make_hello(),
             .to_simulation = [this](Token token, Mutation m) { simulation.post(token, std::move(m)); },
             .to_publisher = [this](Token token, publish::PublisherRequest r) { publisher.post(token, std::move(r)); },
@@ -242,6 +243,7 @@ struct Server::Impl {
     EventLog events;
     JobBoard jobs;
     StatusBoard board;
+    ProbeBoard probes;
     publish::FrameHub hub;
     std::unique_ptr<CommandSocket> socket;
     Simulation simulation;

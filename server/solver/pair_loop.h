@@ -16,10 +16,10 @@
 #include <array>
 #include <span>
 
-#include "server/solver/boundaries/wall_particles.h"
 #include "server/solver/candidates.h"
 #include "server/solver/neighbours.h"
 #include "server/solver/pair.h"
+#include "server/solver/visibility.h"
 
 namespace headrace::solver {
 
@@ -36,7 +36,7 @@ struct PairInput {
     PointSet walls;             // grid is null where the pass knows no walls
     Vec3 period{};              // [m]
     double support{};           // [m]
-    const Walls* thin_walls{};  // null unless pairs may be separated by a thin panel
+    const Visibility* thin_walls{};  // null unless pairs may be separated by a thin panel
     bool centres_are_walls{false};
 };
 

@@ -2,8 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
+#include <string>
 
 #include "server/solver/thread_wait.h"
+#include "tests/bench/accuracy.h"
 #include "tests/bench/report.h"
 
 namespace bench = headrace::bench;
@@ -62,7 +64,10 @@ bool run_case(const std::string& preset, double refine, const Options& options, 
 
 int main(int argc, char** argv) {
     headrace::solver::restart_with_short_spin(argv);  // as the server does
-    CLI::App app{"Times the solver over the presets. One line per case and thread count."};
+    if (argc > 1 && std::string(argv[1]) == "accuracy") return bench::run_accuracy(argc - 1, argv + 1);
+    CLI::App app{
+        "Times the solver over the presets. One line per case and thread count.\n"
+        "`headrace_bench accuracy` measures run time against error on the validation cases: see its --help."};
     Options options;
     define_options(app, options);
     CLI11_PARSE(app, argc, argv);

@@ -114,6 +114,31 @@ expect_json 'r["frames"] == 11 and len(r["summaries"]) == 2' \
 expect_result 0 '(.*)idle_sheet\.png' "$headrace" convert idle.mcap --format png --out sheet --sheet-only --sheet 4
 expect_files 1 '*.png' sheet
 
+# Probes: the preset has none, a scene of one's own may
+expect_result 0 'no probes' "$headrace" probes
+cat >measured.json <<'JSON'
+{"headrace_scene": 1, "name": "measured", "dimensions": 2, "model": "thesis", "spacing": 0.02,
+ "domain": {"min": [-0.1, -0.1], "max": [0.5, 0.5]},
+ "fluids": [{"name": "block", "shape": {"box": {"min": [0, 0], "max": [0.2, 0.2]}}}],
+ "objects": [{"name": "tank", "role": "container", "shape": {"box": {"min": [0, 0], "max": [0.4, 0.4]}}}],
+ "probes": [{"name": "tip", "kind": {"front": {}}, "every_steps": 1},
+            {"name": "gauge", "kind": {"level": {"from": [0.1, 0], "to": [0.1, 0.4]}}, "interval": 0.02}]}
+JSON
+expect_result 0 'measured: .*' "$headrace" load measured.json
+expect_result 0 "tip  t 0 s: front 0\.2 m  \(1 sample\).gauge  t 0 s: level $number m  \(1 sample\)" "$headrace" probes
+expect_result 0 "probe tip is $number m, above 0\.22 m: step .*" "$headrace" resume --until 'tip>0.22'
+expect_json 'r["probes"][0]["latest"][1] > 0.22' "$headrace" --json probes
+expect_result 0 'time \[s\],level \[m\].0,.*' "$headrace" probes gauge
+expect_result 0 "$number samples in tip\.csv" "$headrace" probes tip --csv tip.csv
+head -n 1 tip.csv | grep -qx 'time \[s\],front \[m\]' || fail "tip.csv begins with $(head -n 1 tip.csv)"
+expect 4 'error probe_not_found \(params\.name\): did you mean "tip"\?' "$headrace" probes tipp
+expect 4 'error particle_not_found \(params\.id\): no particle 100; .*' "$headrace" inspect 100
+expect_result 0 "$number frames, 0 gaps" "$headrace" record measured.mcap --for 0.1
+expect_result 0 'probes/measured_probe_gauge\.csv.probes/measured_probe_tip\.csv' \
+    "$headrace" convert measured.mcap --probes --out probes
+[ "$(wc -l <probes/measured_probe_tip.csv)" -gt 5 ] || fail "the recording has too few samples: $(cat probes/*)"
+expect 6 'error file_error \(--probes\): no samples .*' "$headrace" convert idle.mcap --probes --out none
+
 # Without this server
 expect_result 0 '6 frames, 0 gaps, local/own\.mcap.open local/own\.pvd in ParaView.6 files local/own_\*\.csv.*' \
     "$headrace" run own.json --until 0.05 --out local --format vtp,csv

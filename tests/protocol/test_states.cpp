@@ -24,6 +24,9 @@ Json params_for(std::string_view method, int turn) {
         return {{"object", {{"name", "ball"}, {"shape", {{"sphere", {{"center", {0.8, 0.8}}, {"radius", 0.05}}}}}}}};
     if (method == "objects.move") return {{"name", "tank"}, {"by", {0, 0}}};
     if (method == "objects.remove") return {{"name", "tank"}};
+    if (method == "probes.add") return {{"probe", {{"name", "tip"}, {"kind", {{"front", Json::object()}}}}}};
+    if (method == "probes.remove") return {{"name", "gauge"}};
+    if (method == "sim.inspect") return {{"id", 0}};
     if (method == "record.start") return {{"file", "states" + std::to_string(turn) + ".mcap"}};
     return Json::object();
 }
@@ -48,13 +51,19 @@ std::string state_of(Client& client) {
     return client.call("sim.status").at("state");
 }
 
+Json measured_pond() {
+    Json scene = pond();
+    scene["probes"] = Json::array({{{"name", "gauge"}, {"kind", {{"front", Json::object()}}}}});
+    return scene;
+}
+
 // Brings a server with any past into the state.
 void reach(Client& client, SimState state) {
     client.call("sim.cancel");
     if (state == SimState::empty) return;
     // A load that was cancelled answers a little later.
     REQUIRE(eventually([&] { return state_of(client) != "loading"; }));
-    client.call("scene.load", {{"scene", state == SimState::faulted ? doomed_drop() : pond()}});
+    client.call("scene.load", {{"scene", state == SimState::faulted ? doomed_drop() : measured_pond()}});
     if (state == SimState::running) client.call("sim.run", {{"pace", 1e-6}});
     if (state == SimState::faulted) client.call("sim.step", {{"steps", 100}});
     if (state == SimState::loading) {
@@ -67,7 +76,8 @@ void reach(Client& client, SimState state) {
 void check_answer(const Answer& answer, const server::StateRule& rule, SimState state) {
     INFO(rule.method << " while " << server::state_name(state) << ": " << answer.message.dump().substr(0, 500));
     if (is_allowed(rule, state)) {
-        CHECK(answer.ok());
+        // The thesis's model cannot explain a particle: a refusal that is not the state's.
+        CHECK((answer.ok() || (rule.method == "sim.inspect" && answer.error_name() == "invalid_params")));
         return;
     }
     CHECK(answer.error_name() == (state == SimState::loading ? "busy" : "wrong_state"));

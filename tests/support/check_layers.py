@@ -7,7 +7,7 @@ import sys
 root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()
 
 # Queues and boards between the server's threads.
-EXCHANGE = r"server/(doorbell|outbox|inbox|event_log|jobs|state_table|status)\."
+EXCHANGE = r"server/(doorbell|outbox|inbox|event_log|jobs|probe_board|state_table|status)\."
 
 # First match wins: files, what of ours they may include. The solver knows nothing of ours but itself.
 ROOMS = [
@@ -18,6 +18,7 @@ ROOMS = [
     (r"server/solver/(models/|diagnostics\.)", [r"server/solver/"]),
     (r"server/solver/", [r"server/solver/[^/]+$"]),
     (r"server/scene/", [r"server/scene/", r"server/solver/", r"proto/"]),
+    (r"server/probes/", [r"server/probes/", r"server/solver/", r"proto/"]),
     (EXCHANGE, [EXCHANGE, r"proto/"]),
     (r"server/publish/", [r"server/publish/", r"server/solver/[^/]+$", EXCHANGE, r"proto/"]),
     (r"server/service/", [r"server/service/", r"server/publish/", r"server/simulation\.h", r"server/scene/run\.h",
@@ -31,6 +32,7 @@ ROOMS = [
 BANS = [
     (r"server/solver/", r"(nlohmann|zmq|CLI|spdlog)", "the solver uses no such library"),
     (r"server/scene/", r"(nlohmann|zmq|CLI)", "scenes are plain structs here"),
+    (r"server/probes/", r"(nlohmann|zmq|CLI)", "probes are plain structs here"),
 ]
 
 # Large libraries: a header that includes one, by itself or through another header, is private to its folder, so that no

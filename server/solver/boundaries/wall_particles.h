@@ -23,6 +23,7 @@
 #include "server/solver/boundaries/wall_sampling.h"
 #include "server/solver/objects.h"
 #include "server/solver/particles.h"
+#include "server/solver/visibility.h"
 
 namespace headrace::solver {
 
@@ -41,7 +42,7 @@ struct WallParticles {
     std::size_t size() const { return id.size(); }
 };
 
-class Walls {
+class Walls final : public Visibility {
   public:
     // spacing: of the fluid [m]; depth: how deep dummies must reach, the kernel's support radius [m].
     Walls(int dimensions, double spacing, double depth);
@@ -69,11 +70,11 @@ class Walls {
     Vec3 velocity(std::size_t object, const Vec3& x) const;
 
     // For pairs near thin panels. May a fluid particle at x interact with wall particle k (of particles())?
-    bool sees(const Vec3& x, std::size_t k) const;
+    bool sees(const Vec3& x, std::size_t k) const override;
     // Does the straight line between two fluid particles pass through a thin solid?
-    bool is_blocked(const Vec3& x_i, const Vec3& x_j) const;
+    bool is_blocked(const Vec3& x_i, const Vec3& x_j) const override;
     // Could any pair with a member within `reach` of x need these two tests?
-    bool is_near_thin(const Vec3& x, double reach) const;
+    bool is_near_thin(const Vec3& x, double reach) const override;
 
   private:
     struct Panel {

@@ -38,6 +38,12 @@ TEST_CASE("Arguments.UntilNamesOneEnd") {
     CHECK(parse_until("+0.5")->duration == 0.5);
     CHECK(parse_until("step=400")->step == 400);
     CHECK(parse_until("steps=7")->steps == 7);
+    CHECK(parse_until("gauge>0.3")->probe->probe == "gauge");
+    CHECK(parse_until("gauge>0.3")->probe->above == 0.3);
+    CHECK(parse_until("tank.fx<-1e3")->probe->below == -1e3);
+    CHECK_FALSE(parse_until("tank.fx<-1e3")->probe->above);
+    CHECK_FALSE(parse_until("gauge>high"));
+    CHECK_FALSE(parse_until(">0.3"));
     const auto until = parse_until("2");
     CHECK_FALSE(until->at_rest);
     CHECK_FALSE(until->duration);

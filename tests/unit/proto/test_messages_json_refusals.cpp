@@ -91,7 +91,8 @@ TEST_CASE("Refusal.NamesWhatIsMissing") {
 
 TEST_CASE("Refusal.HoldsTargetsOfARunApart") {
     CHECK(why<SimRun>(R"({"until": {"time": 1, "steps": 4}})") ==
-          "params.until.steps: cannot be given together with time (give one of time, duration, step, steps, at_rest)");
+          "params.until.steps: cannot be given together with time (give one of time, duration, step, steps, at_rest, "
+          "probe)");
     CHECK(refusal<SimRun>(R"({"until": {"at_rest": true, "duration": 4}})").path == "params.until.at_rest");
     CHECK(why<SimRun>(R"({"until": {"at_rest": false}})") ==
           "params.until.at_rest: must be true, got false (leave the member out instead)");

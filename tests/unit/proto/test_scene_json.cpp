@@ -63,7 +63,7 @@ TEST_CASE("Scene.ValuesReachTheirMembers") {
     CHECK(scene->domain.max == Vec3{2, 2, 2});
     REQUIRE(scene->fluids.size() == 2);
     CHECK(std::get<BoxDesc>(scene->fluids[0].shape).max == Vec3{1, 1, 1});
-    CHECK(scene->fluids[0].velocity == Vec3{1, 2, 3});
+    CHECK(scene->fluids[0].velocity == ScalarVec3{1.0, 2.0, 3.0});
     CHECK(scene->objects[0].role == ObjectRole::container);
     CHECK(scene->objects[1].role == ObjectRole::obstacle);
     REQUIRE(scene->events.size() == 4);
@@ -124,7 +124,8 @@ TEST_CASE("Scene.RefusalsNameTheDeepestPath") {
           "params.scene.fluids[1].shape.sphere.radius: must be greater than 0 m, got 0");
     CHECK(why("/fluids/1/shape", "{\"cube\": {}}") == "params.scene.fluids[1].shape.cube: unknown member \"cube\"");
     CHECK(why("/fluids/1/shape", "{}") ==
-          "params.scene.fluids[1].shape: must be an object with one member out of box, sphere, got 0 members");
+          "params.scene.fluids[1].shape: must be an object with one member out of box, sphere, cylinder, plane, "
+          "difference, intersection, got 0 members");
     CHECK(why("/spacing", "-0.1") == "params.scene.spacing: must be greater than 0 m, got -0.1");
     CHECK(why("/spaceing", "0.1") == "params.scene.spaceing: unknown member \"spaceing\"");
     CHECK(why("/dimensions", "4") == "params.scene.dimensions: must be at least 2 and at most 3, got 4");
@@ -138,7 +139,7 @@ TEST_CASE("Scene.RefusalsNameTheDeepestPath") {
 TEST_CASE("Scene.EventsHaveOneTriggerAndOneAction") {
     CHECK(why("/events/0/step", "4") == "params.scene.events[0].step: cannot be given together with at_rest");
     CHECK(why("/events/3", R"({"action": {"pause": {}}})") ==
-          "params.scene.events[3]: needs one of at_rest, time, step");
+          "params.scene.events[3]: needs one of at_rest, time, step, probe");
     CHECK(why("/events/3/action", R"({"pause": {}, "remove_object": {"name": "a"}})") ==
           "params.scene.events[3].action: must be an object with one member out of remove_object, move_object, "
           "set_parameters, pause, got 2 members");

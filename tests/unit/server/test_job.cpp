@@ -57,6 +57,19 @@ TEST_CASE("Job.WaitingForRestHasATimeOutEvenIfNobodyGivesOne") {
     CHECK(state_at(job, {500, 6.0}, true) == proto::JobState::finished);
 }
 
+TEST_CASE("Job.AProbesValueEndsItAndIsTheReason") {
+    proto::RunUntil until;
+    until.probe = {"gauge", 0.3, {}};
+    const Job job = Job::make(1, until, {0, 0.0}, 30.0);
+    CHECK_FALSE(job.end({5, 0.05}, kDt, true));
+    const auto end = job.end({5, 0.05}, kDt, false, "probe gauge is 0.31 m, above 0.3 m");
+    REQUIRE(end);
+    CHECK(end->state == proto::JobState::finished);
+    CHECK(end->reason == "probe gauge is 0.31 m, above 0.3 m");
+    // Another job's probe does not end one that has none.
+    CHECK_FALSE(Job::make(2, {}, {0, 0.0}, 30.0).end({5, 0.05}, kDt, false, "probe gauge is 0.31 m, above 0.3 m"));
+}
+
 TEST_CASE("Job.WithoutATargetItNeverEndsByItself") {
     const Job job = Job::make(1, {}, {0, 0.0}, 5.0);
     CHECK(state_at(job, {1'000'000, 1e6}, true) == proto::JobState::running);

@@ -208,6 +208,23 @@ TEST_CASE("SceneRenderer.ARemovedPanelChangesNothingElse") {
     CHECK(changed > 100);
 }
 
+// A round log seen from the side covers its rectangle; a plane has no end and is not drawn.
+TEST_CASE("SceneRenderer.CylindersAreDrawnAndPlanesAreNot") {
+    const proto::SceneDesc scene = tank_scene();
+    SceneRenderer renderer(scene, {}, 320, 240, {10, 10, 300, 220});
+    const proto::ObjectDesc log{"log", proto::ObjectRole::obstacle,
+                                proto::CylinderDesc{{0.2, 0.4, 0.2}, {0.8, 0.4, 0.2}, 0.1}};
+    const proto::ObjectDesc floor{"floor", proto::ObjectRole::obstacle, proto::PlaneDesc{{0, 0, 0}, {0, 1, 0}}};
+    const Image nothing = renderer.draw({}, {}, {}), with_log = renderer.draw({}, {}, {log});
+    const Projected middle = renderer.camera().project({0.5, 0.4, 0.2});
+    const int x = static_cast<int>(middle.x), y = static_cast<int>(middle.y);
+    CHECK(difference(with_log.at(x, y), nothing.at(x, y)) > 30);
+    const Projected above = renderer.camera().project({0.5, 0.65, 0.2});
+    CHECK(with_log.at(static_cast<int>(above.x), static_cast<int>(above.y)) == nothing.at(x, y));
+    const Image with_floor = renderer.draw({}, {}, {floor});
+    CHECK(with_floor.at(x, y) == nothing.at(x, y));
+}
+
 TEST_CASE("SceneRenderer.ParticleShowsTheColourOfItsValue") {
     proto::SceneDesc scene = tank_scene();
     scene.spacing = 0.1;  // large spheres
@@ -254,6 +271,13 @@ TEST_CASE("SceneView.GuessedScalesCoverWhatTheSceneCanDo") {
     options.color_min = 1e6;
     options.color_max.reset();
     CHECK(make_color_scale(scene, options).max > 1e6);
+}
+
+TEST_CASE("SceneView.PlanesDoNotReachToTheHorizon") {
+    proto::SceneDesc scene = tank_scene();
+    const proto::BoxDesc before = visible_bounds(scene);
+    scene.objects.push_back({"floor", proto::ObjectRole::obstacle, proto::PlaneDesc{{0, 0, 0}, {0, 1, 0}}});
+    CHECK(visible_bounds(scene) == before);
 }
 
 TEST_CASE("SceneView.UpIsAgainstGravity") {

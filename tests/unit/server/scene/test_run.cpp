@@ -109,11 +109,11 @@ TEST_CASE("Run.RefusesScenesThatMakeNoSense") {
         check_refused(scene, ErrorCode::scene_invalid, "scene.objects[1].shape.sphere.center");
     }
     SECTION("an event about an object that is not there") {
-        scene.events.push_back({true, {}, {}, proto::RemoveObjectAction{"bal"}});
+        scene.events.push_back({true, {}, {}, {}, proto::RemoveObjectAction{"bal"}});
         check_refused(scene, ErrorCode::scene_invalid, "scene.events[0].action.remove_object.name");
     }
     SECTION("an event with an impossible parameter") {
-        scene.events.push_back({true, {}, {}, proto::SetParametersAction{{{"viscosity", -1.0}}}});
+        scene.events.push_back({true, {}, {}, {}, proto::SetParametersAction{{{"viscosity", -1.0}}}});
         check_refused(scene, ErrorCode::scene_invalid, "scene.events[0].action.set_parameters.viscosity");
     }
 }
@@ -183,4 +183,29 @@ TEST_CASE("AtRestWatch.RestMustLastAndIsLostByMotion") {
     REQUIRE(run.set_parameters({{"gravity", proto::Vec3{0, -9.82, 0}}}).ok());
     for (int k = 0; k < 8; ++k) run.step();  // 0.07 s: in mid-fall
     CHECK_FALSE(watch.update(run));
+}
+
+// A drop in free flight: pair forces cancel, so its mean velocity is the time integral of the scene's accelerations.
+TEST_CASE("Run.BodyForceAndFrameMoveTheFluid") {
+    proto::SceneDesc scene;
+    scene.name = "drop";
+    scene.dimensions = 2;
+    scene.model = "wcsph";
+    scene.spacing = 0.1;
+    scene.parameters["gravity"] = proto::Vec3{};
+    scene.domain = {{-5, -5}, {5, 5}};
+    scene.fluids.push_back({"water", proto::SphereDesc{{0, 0}, 0.5}});
+    scene.body_force[0] = std::string("2");
+    scene.frame_acceleration = proto::ScalarVec3{0.5, 1.0, 0.0};
+    auto run = scene::Run::build(scene);
+    if (!run) FAIL(run.error().path << ": " << run.error().message);
+    for (int k = 0; k < 5; ++k) REQUIRE_FALSE((*run)->step().fault);
+    const solver::Particles& particles = (*run)->particles();
+    double sum[2]{};
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        for (int axis = 0; axis < 2; ++axis) sum[axis] += particles.v[axis][i];
+    const double n = static_cast<double>(particles.size());
+    // A uniform field leaves the drop as it is: rounding only.
+    CHECK(sum[0] / n == Approx(1.5 * (*run)->time()).epsilon(1e-9));
+    CHECK(sum[1] / n == Approx(-1.0 * (*run)->time()).epsilon(1e-9));
 }

@@ -43,6 +43,7 @@ struct Bench {
     server::StatusBoard board;
     server::EventLog events;
     server::JobBoard jobs;
+    server::ProbeBoard probes;
     std::vector<std::pair<Token, server::Mutation>> mutations;
     std::vector<std::pair<Token, publish::PublisherRequest>> to_publisher;
     std::vector<Json> recorded;
@@ -52,6 +53,7 @@ struct Bench {
         .board = board,
         .events = events,
         .jobs = jobs,
+        .probes = probes,
         .hello = {},
         .to_simulation = [this](Token token, server::Mutation m) { mutations.emplace_back(token, std::move(m)); },
         .to_publisher = [this](Token token,

@@ -1,0 +1,142 @@
+#include "server/scene/collision_objects.h"
+
+#include <cmath>
+
+#include "server/scene/curves.h"
+#include "server/scene/shapes.h"
+#include "server/scene/vectors.h"
+
+namespace headrace::scene {
+
+using proto::Error;
+using proto::ErrorCode;
+using proto::Result;
+using proto::Vec3;
+
+namespace {
+
+// Turn by `angle` [rad] about the unit vector n (Rodrigues' formula), row by row.
+std::array<double, 9> rotation(double angle, const Vec3& n) {
+    const double c = std::cos(angle), s = std::sin(angle), d = 1.0 - c;
+    return {c + n[0] * n[0] * d,        n[0] * n[1] * d - n[2] * s, n[0] * n[2] * d + n[1] * s,
+            n[1] * n[0] * d + n[2] * s, c + n[1] * n[1] * d,        n[1] * n[2] * d - n[0] * s,
+            n[2] * n[0] * d - n[1] * s, n[2] * n[1] * d + n[0] * s, c + n[2] * n[2] * d};
+}
+
+struct Motion {
+    std::array<Curve, 3> displacement;  // [m]
+    Curve angle;                        // [rad]
+    bool turns{false};
+    Vec3 pivot{};
+    Vec3 axis{0.0, 0.0, 1.0};
+    std::array<Curve, 3> surface_velocity;  // [m/s]
+
+    solver::RigidState operator()(double t) const {
+        solver::RigidState state;
+        state.pivot = pivot;
+        for (int k = 0; k < 3; ++k) {
+            const CurvePoint point = displacement[k].at(t);
+            state.translation[k] = point.value;
+            state.velocity[k] = point.rate;
+            state.acceleration[k] = point.acceleration;
+            state.surface_velocity[k] = surface_velocity[k].value(t);
+        }
+        if (!turns) return state;
+        const CurvePoint turn = angle.at(t);
+        state.rotation = rotation(turn.value, axis);
+        state.angular_velocity = scaled(turn.rate, axis);
+        state.angular_acceleration = scaled(turn.acceleration, axis);
+        return state;
+    }
+};
+
+// What of the motion is bad at t = 0, as the member's name; nothing when it is finite.
+std::optional<std::string> find_bad_start(const Motion& motion) {
+    const solver::RigidState state = motion(0.0);
+    const auto is_finite = [](const Vec3& v) { return std::isfinite(v[0] + v[1] + v[2]); };
+    if (!is_finite(state.translation) || !is_finite(state.velocity) || !is_finite(state.acceleration))
+        return ".motion.displacement";
+    const double turn = state.rotation[0] + state.rotation[4] + state.rotation[8];
+    if (!std::isfinite(turn) || !is_finite(state.angular_velocity) || !is_finite(state.angular_acceleration))
+        return ".motion.angle";
+    if (!is_finite(state.surface_velocity)) return ".surface_velocity";
+    return {};
+}
+
+Result<Motion> make_motion(const proto::ObjectDesc& object, int dimensions, double spacing, const std::string& path) {
+    Motion motion;
+    if (object.motion) {
+        const proto::MotionDesc& desc = *object.motion;
+        if (desc.displacement) {
+            auto curves = make_curves(*desc.displacement, dimensions, spacing, path + ".motion.displacement");
+            if (!curves) return curves.error();
+            motion.displacement = std::move(*curves);
+        }
+        if (desc.angle) {
+            auto curve = make_curve(*desc.angle, spacing, path + ".motion.angle");
+            if (!curve) return curve.error();
+            motion.angle = std::move(*curve);
+            motion.turns = true;
+        }
+        motion.pivot = desc.pivot;
+        if (dimensions == 3) {
+            if (!(norm(desc.axis) > 0.0) || !std::isfinite(norm(desc.axis)))
+                return Error{ErrorCode::scene_invalid, "must be finite and not zero", path + ".motion.axis",
+                             "give a direction, of any length"};
+            motion.axis = normalized(desc.axis);
+        }
+        if (!std::isfinite(norm(desc.pivot)))
+            return Error{ErrorCode::scene_invalid, "must be finite", path + ".motion.pivot", "give lengths in m"};
+    }
+    if (object.surface_velocity) {
+        auto curves = make_curves(*object.surface_velocity, dimensions, spacing, path + ".surface_velocity");
+        if (!curves) return curves.error();
+        motion.surface_velocity = std::move(*curves);
+    }
+    if (const auto member = find_bad_start(motion))
+        return Error{ErrorCode::scene_invalid, "the motion or one of its first two derivatives is not finite at t = 0",
+                     path + *member, "the expression must be finite and smooth about t = 0, also a little before it"};
+    return motion;
+}
+
+}  // namespace
+
+Result<solver::CollisionObject> make_collision_object(const proto::ObjectDesc& object, int dimensions, double spacing,
+                                                      const std::string& path) {
+    solver::CollisionObject collision;
+    collision.name = object.name;
+    collision.role = object.role == proto::ObjectRole::container ? solver::Role::container : solver::Role::obstacle;
+    collision.shape = to_primitive(object.shape, dimensions);
+    if (object.slip)
+        collision.slip = *object.slip == proto::WallSlip::free_slip ? solver::Slip::free_slip : solver::Slip::no_slip;
+    if (object.motion || object.surface_velocity) {
+        Result<Motion> motion = make_motion(object, dimensions, spacing, path);
+        if (!motion) return motion.error();
+        collision.motion = std::move(*motion);
+    }
+    return collision;
+}
+
+proto::ObjectDesc moved_by(const proto::ObjectDesc& object, const Vec3& displacement) {
+    proto::ObjectDesc moved = object;
+    moved.shape = moved_by(object.shape, displacement);
+    if (moved.motion) moved.motion->pivot = plus(moved.motion->pivot, displacement);
+    return moved;
+}
+
+bool may_hold_fluid(const proto::ObjectDesc& object, const std::optional<solver::RigidState>& state, const Vec3& x,
+                    int dimensions, double slack) {
+    Vec3 at_rest = x;
+    if (state) {  // back into the object's own frame: pivot + R^T (x - pivot - translation)
+        const Vec3 arm = minus(minus(x, state->pivot), state->translation);
+        const std::array<double, 9>& r = state->rotation;
+        for (int k = 0; k < 3; ++k)
+            at_rest[k] = state->pivot[k] + r[k] * arm[0] + r[3 + k] * arm[1] + r[6 + k] * arm[2];
+    }
+    const bool is_plane = std::holds_alternative<proto::PlaneDesc>(object.shape);
+    if (object.role == proto::ObjectRole::container && !is_plane)
+        return contains(object.shape, at_rest, dimensions, slack);
+    return !contains(object.shape, at_rest, dimensions, -slack);
+}
+
+}  // namespace headrace::scene
