@@ -18,7 +18,7 @@ proto::Result<proto::SimInspectReply> inspect_particle(const scene::Run& run, st
     if (!found)
         return Error{ErrorCode::invalid_params,
                      "the model \"" + std::string(run.model().name()) + "\" cannot explain a particle", "method",
-                     "load the scene with model wcsph"};
+                     "load the scene with a model that can, such as wcsph"};
 
     proto::SimInspectReply reply;
     reply.step = run.step_number();

@@ -69,7 +69,7 @@ TEST_CASE("Lifecycle.DescribeNamesEveryMethodWithItsSchemas") {
     TestServer server;
     Client client(server->control_endpoint());
     const Json document = client.call("describe");
-    CHECK(document["methods"].size() == 27);
+    CHECK(document["methods"].size() == 32);
     CHECK(document["$defs"].contains("shape"));  // where the schemas' references point
     for (const Json& method : document["methods"]) {
         INFO(method["name"]);

@@ -39,12 +39,12 @@ struct WcsphParameters {
     double correction_threshold{0.9};  // smallest eigenvalue from which B is used
     DensityDiffusion density_diffusion{DensityDiffusion::antuono};
     double density_diffusion_factor{0.1};  // xi [1]
-    double artificial_viscosity{0.0};      // alpha [1]
+    double artificial_viscosity{0.03};     // alpha [1]
     ArtificialViscosity artificial_viscosity_form{ArtificialViscosity::reconstructed};
     ViscosityForm viscosity_form{ViscosityForm::automatic};
     TensionForm tension_form{TensionForm::continuum};
     bool shifting{true};
-    double shifting_factor{0.5};  // C [1]
+    double shifting_factor{1.0};  // C [1]
     double shifting_limit{0.05};  // [spacings] per step
     bool tension_control{true};
     WallSuction wall_suction{WallSuction::automatic};

@@ -51,10 +51,12 @@ class Wcsph final : public Model {
     ParameterMap parameters() const override { return to_parameter_map(p_); }
     std::optional<ParameterError> set_parameters(const ParameterMap& values) override;
     std::vector<Stage> plan(const Surroundings& surroundings) const override;
+    std::string walls_reason() const;
     std::optional<std::string> refuse_object(const CollisionObject&) const override { return std::nullopt; }
     std::optional<std::string> refuse_domain(const Domain& domain) const override;
 
   private:
+    static constexpr std::size_t kWallCellBlock = 64;
     static constexpr double kSkin = 0.5;  // [spacings] by which cells are wider than the support
 
     template <class Work>
@@ -94,6 +96,8 @@ class Wcsph final : public Model {
     void compute_pressure_forces(Particles& particles);
     void kick_drift(Particles& particles, double kick, double drift);
     void acoustic_step(Particles& particles, const Surroundings& surroundings, double t, double dt);
+    void hold_at_walls(Particles& particles, double dt);
+    bool put_back(Vec3& x, Vec3& v, double dt) const;
     StepReport finish(Particles& particles, const Surroundings& surroundings, double dt);
 
     int dimensions_;
@@ -116,7 +120,8 @@ class Wcsph final : public Model {
 
     double max_speed_{}, max_acceleration_{};  // [m/s], [m/s^2] at the end of the last step
     std::uint64_t step_{};
-    double moved_{};  // [m] at most, since the last sort
+    std::uint64_t put_back_{};  // particles put back on a wall's surface so far
+    double moved_{};            // [m] at most, since the last sort
     StepChoice next_;
     std::array<double, kStageCount> seconds_{};
     std::vector<double> scratch_;
@@ -435,7 +440,71 @@ StepReport Wcsph::step(Particles& particles, const Surroundings& surroundings) {
         acoustic_step(particles, surroundings, t + k * part, part);
         if (shifts) timed(kAdvance, [&] { apply_shift(particles, 1.0 / next_.acoustic_steps); });
     }
+    timed(kWalls, [&] { hold_at_walls(particles, dt); });
     return finish(particles, surroundings, dt);
+}
+
+// A particle that was driven into a solid (an impact faster than the walls' pressure can answer) is put back on its
+// surface and loses its velocity into it: nothing leaks. Rare in a sound run; counted in the plan.
+bool Wcsph::put_back(Vec3& x, Vec3& v, double dt) const {
+    constexpr int kMostSurfaces = 4;  // a corner of three, and one more
+    bool is_moved = false;
+    const auto stop = [&](std::size_t object, const Vec3& n) {
+        const Vec3 wall = walls_.velocity(object, x);
+        double into = 0.0;
+        for (int k = 0; k < dimensions_; ++k) into += (v[k] - wall[k]) * n[k];
+        for (int k = 0; k < dimensions_; ++k) v[k] -= std::min(into, 0.0) * n[k];
+    };
+    if (walls_.has_thin()) {
+        Vec3 before = x;
+        for (int k = 0; k < dimensions_; ++k) before[k] -= dt * v[k];
+        if (walls_.is_blocked(before, x)) {
+            std::size_t object = 0;
+            Vec3 n{};
+            walls_.distance_to_any(before, &object, &n);
+            x = before;
+            stop(object, n);
+            is_moved = true;
+        }
+    }
+    for (int turn = 0; turn < kMostSurfaces; ++turn) {
+        std::size_t object = 0;
+        Vec3 n{};
+        const double distance = walls_.distance_to_any(x, &object, &n);
+        if (distance >= 0.0) break;
+        for (int k = 0; k < dimensions_; ++k) x[k] -= distance * n[k];
+        stop(object, n);
+        is_moved = true;
+    }
+    return is_moved;
+}
+
+void Wcsph::hold_at_walls(Particles& particles, double dt) {
+    if (walls_.particles().size() == 0) return;
+    std::vector<std::uint64_t> counts((grid_.cells() + kWallCellBlock - 1) / kWallCellBlock);
+    parallel_for(grid_.cells(), kWallCellBlock, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t c = first; c < last; ++c) {
+            if (wall_.grid.around(grid_.coordinates(c)).particles == 0) continue;
+            const Run cell = grid_.cell(c);
+            for (Index i = cell.begin; i < cell.end; ++i) {
+                Vec3 x{}, v{};
+                for (int k = 0; k < dimensions_; ++k) {
+                    x[k] = particles.x[k][i];
+                    v[k] = particles.v[k][i];
+                }
+                if (!put_back(x, v, dt)) continue;
+                ++counts[first / kWallCellBlock];
+                for (int k = 0; k < dimensions_; ++k) {
+                    particles.x[k][i] = x[k];
+                    particles.v[k][i] = v[k];
+                }
+            }
+        }
+    });
+    std::uint64_t count = 0;
+    for (const std::uint64_t part : counts) count += part;
+    put_back_ += count;
+    if (count > 0) moved_ += kSkin * spacing_;  // further than the drift tells: sort before the next step
 }
 
 // Speeds, the next step's length, what went wrong.
@@ -505,12 +574,18 @@ std::optional<std::string> Wcsph::refuse_domain(const Domain& domain) const {
     return std::nullopt;
 }
 
+std::string Wcsph::walls_reason() const {
+    if (walls_.particles().size() == 0) return "no objects";
+    return "pressure and place of " + std::to_string(walls_.particles().size()) + " wall particles; " +
+           std::to_string(put_back_) + " fluid particles put back on a surface so far";
+}
+
 std::vector<Stage> Wcsph::plan(const Surroundings&) const {
     return {{"neighbours", true, "cells, reused while nothing has moved out of them", seconds_[kNeighbours]},
             {"geometry", true, "moment matrices, free surface, shift", seconds_[kGeometry]},
             {"slow_forces", true, "gravity, body force, viscosity, tension", seconds_[kSlow]},
             {"continuity", true, "density", seconds_[kContinuity]},
-            {"walls", walls_.particles().size() > 0, "pressure of the walls", seconds_[kWalls]},
+            {"walls", walls_.particles().size() > 0, walls_reason(), seconds_[kWalls]},
             {"pressure_force", true, "", seconds_[kPressure]},
             {"advance", true, "kick, drift, state equation", seconds_[kAdvance]},
             {"check", true, "", seconds_[kCheck]}};
