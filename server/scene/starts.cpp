@@ -134,6 +134,11 @@ Status set_start(const proto::SceneDesc& scene, solver::Model& model, const solv
                                      path + ".velocity[" + std::to_string(axis) + "]");
                 !status)
                 return status;
+    }
+    model.prepare(particles, surroundings);
+    for (std::size_t k = 0; k < scene.fluids.size(); ++k) {
+        const proto::FluidDesc& fluid = scene.fluids[k];
+        const std::string path = "scene.fluids[" + std::to_string(k) + "]";
         if (fluid.hydrostatic) fill_hydrostatic(fluid, slots[k], model, particles);
         if (!fluid.pressure) continue;
         const auto pressure = Formula::compile(*fluid.pressure, symbols, path + ".pressure");

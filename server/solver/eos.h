@@ -29,6 +29,12 @@ struct StateEquation {
     double relative_sound_speed(double delta) const {
         return gamma == 1.0 ? 1.0 : std::pow(1.0 + delta, 0.5 * (gamma - 1.0));
     }
+    // In still fluid, where the incompressible column above weighs `weight` [Pa]: dp = rho(p) g dz integrated.
+    double hydrostatic_pressure(double weight) const {
+        const double w = weight / rho0_c2;
+        if (gamma == 1.0) return rho0_c2 * std::expm1(w);
+        return rho0_c2 / gamma * std::expm1(gamma / (gamma - 1.0) * std::log1p((gamma - 1.0) * w));
+    }
     // [J/kg] e with de/drho = p/rho^2 and e(rho0) = 0.
     double internal_energy(double delta, double rho0) const {
         const double c2 = rho0_c2 / rho0;

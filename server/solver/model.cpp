@@ -2,6 +2,8 @@
 
 namespace headrace::solver {
 
+void Model::prepare(Particles&, const Surroundings&) {}
+
 void Model::relax(Particles&, const Surroundings&, const std::vector<bool>&) {}
 
 std::vector<ObjectLoad> Model::object_loads(const Particles&, const Surroundings&) const {

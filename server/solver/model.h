@@ -52,6 +52,9 @@ class Model {
     // that do not need it. `spread[i]`: may particle i move?
     virtual void relax(Particles& particles, const Surroundings& surroundings, const std::vector<bool>& spread);
 
+    // Before initialise(), when x and v are known: fixes what follows from the scene as a whole (the speed of sound).
+    virtual void prepare(Particles& particles, const Surroundings& surroundings);
+
     // [Pa] in still fluid under gravity where the incompressible column above weighs rho0 g d = `weight` [Pa].
     virtual double hydrostatic_pressure(double weight) const { return weight; }
 

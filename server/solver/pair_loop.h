@@ -33,9 +33,9 @@ struct PointSet {
 struct PairInput {
     PointSet centres;  // whose sums are formed: the fluid, or the walls
     PointSet fluid;
-    PointSet walls;             // grid is null where the pass knows no walls
-    Vec3 period{};              // [m]
-    double support{};           // [m]
+    PointSet walls;                  // grid is null where the pass knows no walls
+    Vec3 period{};                   // [m]
+    double support{};                // [m]
     const Visibility* thin_walls{};  // null unless pairs may be separated by a thin panel
     bool centres_are_walls{false};
 };

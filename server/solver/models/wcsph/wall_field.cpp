@@ -1,0 +1,131 @@
+#include "server/solver/models/wcsph/wall_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/solver/parallel.h"
+
+namespace headrace::solver {
+
+WallField::WallField(int dimensions, double spacing, double support)
+    : dimensions_(dimensions), walls_(dimensions, spacing, support) {}
+
+void WallField::place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options) {
+    if (anew) {
+        walls_.rebuild(surroundings.objects, surroundings.domain, t);
+    } else if (!walls_.move_to(t)) {
+        return;
+    }
+    WallParticles& w = walls_.particles();
+    state_.no_slip.resize(w.size());
+    state_.p.resize(w.size());
+    state_.delta.resize(w.size());
+    if (w.size() == 0) return;
+    state_.grid.build(w.x, w.id, dimensions_, options.cell_side, &surroundings.domain);
+    for (std::vector<Index>* field : {&w.id, &w.object, &w.sheet}) state_.grid.permute(*field, scratch_id_);
+    for (VectorField* field : {&w.x, &w.v, &w.a, &w.n})
+        for (int k = 0; k < dimensions_; ++k) state_.grid.permute((*field)[k], scratch_);
+    state_.grid.permute(w.V, scratch_);
+    state_.grid.permute(w.depth, scratch_);
+    for (std::size_t k = 0; k < w.size(); ++k) {
+        const Slip slip = surroundings.objects[w.object[k]].slip;
+        state_.no_slip[k] = (slip == Slip::by_model ? options.slip : slip) == Slip::no_slip ? 1.0 : 0.0;
+    }
+    evaluate_gravity(surroundings, t, options.gravity);
+}
+
+// What a fluid particle at the wall would feel, seen from the wall.
+void WallField::evaluate_gravity(const Surroundings& surroundings, double t, const Vec3& gravity) {
+    const WallParticles& w = walls_.particles();
+    for (int k = 0; k < dimensions_; ++k) state_.g[k].assign(w.size(), gravity[k]);
+    if (surroundings.body_force != nullptr) {
+        Particles there;
+        there.dimensions = dimensions_;
+        there.resize(w.size());
+        there.x = w.x;
+        there.v = w.v;
+        (*surroundings.body_force)(t, there, state_.g);
+    }
+    for (int k = 0; k < dimensions_; ++k)
+        for (std::size_t i = 0; i < w.size(); ++i) state_.g[k][i] -= w.a[k][i];
+}
+
+double WallField::max_speed() const {
+    const WallParticles& w = walls_.particles();
+    double v2_max = 0.0;
+    for (std::size_t i = 0; i < w.size(); ++i) {
+        double v2 = 0.0;
+        for (int k = 0; k < dimensions_; ++k) v2 += w.v[k][i] * w.v[k][i];
+        v2_max = std::max(v2_max, v2);
+    }
+    return std::sqrt(v2_max);
+}
+
+PointSet WallField::points() const {
+    if (is_empty()) return {};
+    return {&state_.grid, &walls_.particles().x, walls_.particles().V.data()};
+}
+
+void WallField::stop_at(std::size_t object, const Vec3& n, const Vec3& x, Vec3& v) const {
+    const Vec3 wall = walls_.velocity(object, x);
+    double into = 0.0;
+    for (int k = 0; k < dimensions_; ++k) into += (v[k] - wall[k]) * n[k];
+    for (int k = 0; k < dimensions_; ++k) v[k] -= std::min(into, 0.0) * n[k];
+}
+
+bool WallField::put_back(Vec3& x, Vec3& v, double dt) const {
+    constexpr int kMostSurfaces = 4;  // a corner of three, and one more
+    bool is_moved = false;
+    if (walls_.has_thin()) {
+        Vec3 before = x;
+        for (int k = 0; k < dimensions_; ++k) before[k] -= dt * v[k];
+        if (walls_.is_blocked(before, x)) {
+            std::size_t object = 0;
+            Vec3 n{};
+            walls_.distance_to_any(before, &object, &n);
+            x = before;
+            stop_at(object, n, x, v);
+            is_moved = true;
+        }
+    }
+    for (int turn = 0; turn < kMostSurfaces; ++turn) {
+        std::size_t object = 0;
+        Vec3 n{};
+        const double distance = walls_.distance_to_any(x, &object, &n);
+        if (distance >= 0.0) break;
+        for (int k = 0; k < dimensions_; ++k) x[k] -= distance * n[k];
+        stop_at(object, n, x, v);
+        is_moved = true;
+    }
+    return is_moved;
+}
+
+std::uint64_t WallField::hold(Particles& particles, const CellGrid& grid, double dt) const {
+    constexpr std::size_t kCellBlock = 64;
+    if (is_empty()) return 0;
+    std::vector<std::uint64_t> counts((grid.cells() + kCellBlock - 1) / kCellBlock);
+    parallel_for(grid.cells(), kCellBlock, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t c = first; c < last; ++c) {
+            if (state_.grid.around(grid.coordinates(c)).particles == 0) continue;
+            const Run cell = grid.cell(c);
+            for (Index i = cell.begin; i < cell.end; ++i) {
+                Vec3 x{}, v{};
+                for (int k = 0; k < dimensions_; ++k) {
+                    x[k] = particles.x[k][i];
+                    v[k] = particles.v[k][i];
+                }
+                if (!put_back(x, v, dt)) continue;
+                ++counts[first / kCellBlock];
+                for (int k = 0; k < dimensions_; ++k) {
+                    particles.x[k][i] = x[k];
+                    particles.v[k][i] = v[k];
+                }
+            }
+        }
+    });
+    std::uint64_t count = 0;
+    for (const std::uint64_t part : counts) count += part;
+    return count;
+}
+
+}  // namespace headrace::solver
