@@ -15,8 +15,9 @@ namespace headrace::client {
 namespace {
 
 constexpr const char* kFooter =
-    R"(A server is chosen by --server, else by HEADRACE_SERVER, else it is tcp://127.0.0.1:5755. `run` and `plan`
-need none: they start a private headraced (HEADRACE_SERVER_BINARY, else the one beside this program).
+    R"(A server is chosen by --server, else by HEADRACE_SERVER, else it is tcp://127.0.0.1:5755. `run`,
+`converge` and `plan` need none: they start a private headraced (HEADRACE_SERVER_BINARY, else the one beside this
+program).
 
 Exit status:
   0  done                                  5  not possible in this state, busy, cancelled
@@ -48,6 +49,7 @@ int run_command_line(int argc, char** argv) {
     app.add_option("--server", line.globals.server, "control endpoint, tcp://HOST:PORT or ipc://PATH");
     app.add_flag("--json", line.globals.json, "print the result as JSON");
     add_local_run_command(app, line);
+    add_converge_command(app, line);
     add_scene_commands(app, line);
     add_run_commands(app, line);
     add_parameter_commands(app, line);

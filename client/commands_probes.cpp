@@ -4,6 +4,7 @@
 #include "client/arguments.h"
 #include "client/command.h"
 #include "client/probe_csv.h"
+#include "client/probe_series.h"
 #include "client/text.h"
 #include "client/writers/file_output.h"
 
@@ -41,23 +42,6 @@ proto::Status list_probes(const Globals& globals) {
                                                    print_line(probe_line(state));
                                                if (reply.probes.empty()) print_line("no probes");
                                            });
-}
-
-// All samples of one probe, in as many replies as it takes.
-proto::Result<proto::ProbeSeries> fetch_series(Connection& connection, const std::string& name) {
-    proto::ProbeSeries whole;
-    proto::ProbesGet query;
-    query.name = name;
-    for (;;) {
-        auto reply = call<proto::ProbesGetReply>(connection, "probes.get", query);
-        if (!reply) return reply.error();
-        if (reply->probes.empty()) return whole;
-        proto::ProbeSeries& part = reply->probes.front();
-        if (!query.since) whole = {part.name, part.columns, {}, part.dropped};
-        whole.rows.insert(whole.rows.end(), part.rows.begin(), part.rows.end());
-        if (part.rows.empty() || !reply->complete_to) return whole;
-        query.since = reply->complete_to;
-    }
 }
 
 proto::Status show_series(const Globals& globals, const ProbeWords& words) {

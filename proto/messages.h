@@ -133,7 +133,7 @@ struct PlanStage {
     double seconds{};    // [s] wall time spent in it so far
 };
 struct FaultReport {
-    std::string criterion;  // "non_finite", "left_domain"
+    std::string criterion;  // "non_finite", "left_domain", "density", "speed", "time_step"
     std::uint32_t particle{};
     Vec3 position{};  // [m] last known
     Vec3 velocity{};  // [m/s]

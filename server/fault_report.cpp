@@ -1,10 +1,11 @@
 #include "server/fault_report.h"
 
+#include "server/solver/faults.h"
+
 namespace headrace::server {
 
 proto::FaultReport report_of(const solver::Fault& fault, const Place& now) {
-    const char* criterion = fault.kind == solver::FaultKind::non_finite ? "non_finite" : "left_domain";
-    return {criterion, fault.particle, fault.x, fault.v, now.step, now.time, fault.remedy};
+    return {solver::name_of(fault.kind), fault.particle, fault.x, fault.v, now.step, now.time, fault.remedy};
 }
 
 proto::FaultReport report_of_internal_error(const std::string& what, const Place& now) {

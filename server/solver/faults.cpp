@@ -42,6 +42,22 @@ Vec3 component_wise(const VectorField& field, int dimensions, std::size_t i) {
 
 }  // namespace
 
+const char* name_of(FaultKind kind) {
+    switch (kind) {
+        case FaultKind::non_finite:
+            break;
+        case FaultKind::left_domain:
+            return "left_domain";
+        case FaultKind::density:
+            return "density";
+        case FaultKind::speed:
+            return "speed";
+        case FaultKind::time_step:
+            return "time_step";
+    }
+    return "non_finite";
+}
+
 Inspection inspect(const Particles& particles, const Domain& domain) {
     const auto lower = [&](std::size_t a, std::size_t b) {
         if (a == kNone || b == kNone) return std::min(a, b);

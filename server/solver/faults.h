@@ -14,6 +14,9 @@ struct Inspection {
     std::optional<Fault> fault;  // of the lowest id that has one; remedy left empty
 };
 
+// As clients see it: "non_finite", "left_domain", ...
+const char* name_of(FaultKind kind);
+
 Inspection inspect(const Particles& particles, const Domain& domain);
 
 }  // namespace headrace::solver

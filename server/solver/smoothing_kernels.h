@@ -2,7 +2,8 @@
 // length h, R = 2 h (cubic spline, Wendland) or 3 h (quintic spline). Ours: h = R/2 for every kernel, in every term
 // that needs a smoothing length.
 //
-// F(r) = W'(r)/r <= 0, so that grad_i W_ij = F x_ij: no division by r. Both are 0 at and beyond R.
+// F(r) = W'(r)/r <= 0, so that grad_i W_ij = F x_ij: no division by r. dF_dr is its derivative. All are 0 at and
+// beyond R.
 // T: double or Lanes.
 #pragma once
 
@@ -34,6 +35,11 @@ class WendlandC2 {
     HEADRACE_ALWAYS_INLINE T F(const T& r) const {
         const T u = positive_or_zero<T>(1.0 - r * inv_R_);
         return slope_ * u * u * u;
+    }
+    template <class T>
+    HEADRACE_ALWAYS_INLINE T dF_dr(const T& r) const {
+        const T u = positive_or_zero<T>(1.0 - r * inv_R_);
+        return -3.0 * inv_R_ * slope_ * u * u;
     }
 
   private:
@@ -96,6 +102,35 @@ class AnyKernel {
         const T q = 3.0 * s, a = positive_or_zero<T>(3.0 - q), b = positive_or_zero<T>(2.0 - q),
                 c = positive_or_zero<T>(1.0 - q);
         return slope_ * (a * a * a * a - 6.0 * b * b * b * b + 15.0 * c * c * c * c) / maximum(q, splat<T>(kTiny));
+    }
+
+    template <class T>
+    HEADRACE_ALWAYS_INLINE T dF_dr(const T& r) const {
+        const T s = r * inv_R_;
+        switch (kind_) {
+            case KernelKind::wendland_c2: {
+                const T u = positive_or_zero<T>(1.0 - s);
+                return -3.0 * inv_R_ * slope_ * u * u;
+            }
+            case KernelKind::wendland_c4: {
+                const T u = positive_or_zero<T>(1.0 - s), u2 = u * u;
+                return -30.0 * inv_R_ * slope_ * s * u2 * u2;
+            }
+            case KernelKind::cubic_spline: {
+                // F = P/q: dF/dq = (P' - F)/q
+                const T q = 2.0 * s, a = positive_or_zero<T>(2.0 - q), b = positive_or_zero<T>(1.0 - q);
+                return slope_ * 2.0 * inv_R_ *
+                       ((8.0 * b - 2.0 * a) - (a * a - 4.0 * b * b) / maximum(q, splat<T>(kTiny))) /
+                       maximum(q, splat<T>(kTiny));
+            }
+            case KernelKind::quintic_spline:
+                break;
+        }
+        const T q = 3.0 * s, a = positive_or_zero<T>(3.0 - q), b = positive_or_zero<T>(2.0 - q),
+                c = positive_or_zero<T>(1.0 - q), inv_q = 1.0 / maximum(q, splat<T>(kTiny));
+        const T a3 = a * a * a, b3 = b * b * b, c3 = c * c * c;
+        return slope_ * 3.0 * inv_R_ * inv_q *
+               (-4.0 * (a3 - 6.0 * b3 + 15.0 * c3) - inv_q * (a * a3 - 6.0 * b * b3 + 15.0 * c * c3));
     }
 
   private:

@@ -8,9 +8,17 @@
 
 namespace headrace::solver {
 
-enum class FaultKind { non_finite, left_domain };
+// non_finite, left_domain: found in any model. The others tell that the state is no result any more.
+enum class FaultKind {
+    non_finite,
+    left_domain,
+    density,    // far from the rest density
+    speed,      // faster than the model's sound
+    time_step,  // it has collapsed
+};
 
-// The first particle (lowest id) that went wrong. The particles keep the state in which it was found.
+// The particle that went wrong: the lowest id that is non-finite or outside, else the one that is worst. The particles
+// keep the state in which it was found.
 struct Fault {
     FaultKind kind{};
     Index particle{};  // id

@@ -28,7 +28,7 @@ struct LadderPlan {
     std::string csv;                 // is appended to; runs found in it are not repeated
     bool quick{false};               // the three coarsest resolutions
     double budget{1e30};             // [s] after which no further run is begun
-    double longest{120.0};           // [s] a run may be expected to take
+    double longest{20.0};            // [s] a run may be expected to take
 };
 
 // Returns false when the budget ended it.

@@ -48,16 +48,21 @@ class Balance : public RegularObserver {
                                         start_.linear_scale);
         angular_ = std::max(angular_, std::abs(now.angular - start_.angular) / start_.angular_scale);
         gain_ = std::max(gain_, energy / energy_ - 1);
+        if (const auto budget = run.model().energies(run.particles(), run.surroundings()))
+            lost_ = std::max(lost_.value_or(0.0), std::abs(budget->balance) / energy_);
     }
 
     std::vector<Measured> measured() const override {
-        return {{"momentum", linear_}, {"angular_momentum", angular_}, {"energy_gain", gain_}};
+        std::vector<Measured> metrics{{"momentum", linear_}, {"angular_momentum", angular_}, {"energy_gain", gain_}};
+        if (lost_) metrics.push_back({"energy_balance", *lost_});
+        return metrics;
     }
 
   private:
     Momenta start_;
     double energy_{};
     double linear_{}, angular_{}, gain_{};
+    std::optional<double> lost_;  // what the model's own budget cannot account for
 };
 
 }  // namespace
@@ -69,6 +74,7 @@ std::vector<Case> balance_cases() {
     one.length = 0.4;
     one.resolution = 20;
     one.main_metric = "momentum";
+    one.follows_energies = true;
     one.observe = [](const scene::Run&, const Settings&) -> std::unique_ptr<Observer> {
         return std::make_unique<Balance>();
     };

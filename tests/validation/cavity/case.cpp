@@ -87,7 +87,6 @@ Case make(double reynolds, std::size_t column, double resolution, double end, st
     one.ladder = {20, 30, 40, 50, 70};
     one.targets = std::move(targets);
     one.main_metric = "l2_centreline";
-    one.is_exact = false;
     one.is_long = reynolds > 100;
     one.adapt = [=](proto::SceneDesc& scene, double) { scene.parameters["viscosity"] = kRho / reynolds; };
     one.observe = [=](const scene::Run&, const Settings&) -> std::unique_ptr<Observer> {

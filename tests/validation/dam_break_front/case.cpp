@@ -55,7 +55,6 @@ std::vector<Case> dam_break_front_cases() {
     one.length = kWidth;
     one.resolution = 40;
     one.main_metric = "front_nrmse";
-    one.is_exact = false;
     one.observe = [](const scene::Run&, const Settings&) -> std::unique_ptr<Observer> {
         return std::make_unique<Front>();
     };

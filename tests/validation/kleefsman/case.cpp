@@ -54,7 +54,6 @@ std::vector<Case> kleefsman_cases() {
     one.length = kDepth;
     one.resolution = 20;
     one.main_metric = "level_H2";
-    one.is_exact = false;
     one.is_long = true;
     one.observe = [](const scene::Run& run, const Settings&) -> std::unique_ptr<Observer> {
         return std::make_unique<Levels>(run);

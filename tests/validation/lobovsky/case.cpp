@@ -102,7 +102,6 @@ Case make(const std::string& name, double spacing) {
     one.resolution = kH / spacing;
     one.targets = {{"p2_outside_band", 0.25, 0.1}, {"p2_impulse", 0.1, 0.05}};
     one.main_metric = "p2_outside_band";
-    one.is_exact = false;
     one.is_long = true;
     one.observe = [](const scene::Run& run, const Settings&) -> std::unique_ptr<Observer> {
         return std::make_unique<Impact>(run);

@@ -61,15 +61,15 @@ class RegularObserver : public Observer {
 
 struct Case {
     std::string name;
-    std::string folder;           // below tests/validation
-    std::string length_name;      // "R0": resolution is R0/dp
-    double length{};              // [m]
-    double resolution{};          // of the targets
-    std::vector<double> ladder;   // resolutions of the diagrams, ascending; empty: not on them
-    std::vector<Target> targets;  // at `resolution`
-    std::string main_metric;      // of the diagrams
-    bool is_exact{true};          // false: judged by an experiment or needs reference data
-    bool is_long{false};          // its full run takes many minutes
+    std::string folder;            // below tests/validation
+    std::string length_name;       // "R0": resolution is R0/dp
+    double length{};               // [m]
+    double resolution{};           // of the targets
+    std::vector<double> ladder;    // resolutions of the diagrams, ascending; empty: not on them
+    std::vector<Target> targets;   // at `resolution`
+    std::string main_metric;       // of the diagrams
+    bool follows_energies{false};  // its observer asks the model for its energy budget
+    bool is_long{false};           // its full run takes many minutes
     std::function<void(proto::SceneDesc&, double resolution)> adapt;  // beyond the spacing; may be empty
     std::function<std::unique_ptr<Observer>(const scene::Run&, const Settings&)> observe;
 };
@@ -107,7 +107,7 @@ struct Outcome {
     std::size_t particles{};
     std::size_t steps{};
     double simulated{};  // [s]
-    double wall{};       // [s] in the steps alone
+    double wall{};       // [s] in the steps alone; one thread: its processor time, undisturbed by other programs
 
     double value(const std::string& metric) const;  // NaN: not measured
 };

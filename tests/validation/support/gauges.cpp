@@ -13,9 +13,8 @@ Gauge::Gauge(const scene::Run& run, const std::string& name) {
 
 double Gauge::read(const scene::Run& run) const {
     const proto::SceneDesc& scene = run.scene();
-    probes::RunView view{run.particles(), run.model(), {}, scene.spacing, run.step_number(), run.time()};
-    view.surroundings.domain = {scene.domain.min, scene.domain.max, scene.domain.periodic};
-    view.surroundings.time = run.time();
+    const probes::RunView view{run.particles(), run.model(),       run.surroundings(),
+                               scene.spacing,   run.step_number(), run.time()};
     std::vector<probes::NearParticle> near;
     if (const auto region = probe_->region(run.model().support_radius()))
         near = probes::find_nearby(run.particles(), view.surroundings.domain, std::array{*region}).front();

@@ -37,7 +37,7 @@ struct WcsphParameters {
     double support_over_spacing{3.0};  // R/dx [1]
     PressureGradient pressure_gradient{PressureGradient::automatic};
     double correction_threshold{0.9};  // smallest eigenvalue from which B is used
-    DensityDiffusion density_diffusion{DensityDiffusion::fourtakas};
+    DensityDiffusion density_diffusion{DensityDiffusion::antuono};
     double density_diffusion_factor{0.1};  // xi [1]
     double artificial_viscosity{0.03};     // alpha [1]
     ArtificialViscosity artificial_viscosity_form{ArtificialViscosity::reconstructed};

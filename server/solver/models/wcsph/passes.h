@@ -85,10 +85,12 @@ struct GeometryOptions {
     double correction_threshold{};  // smallest eigenvalue that is corrected
     bool shifting{};
     bool reconstructs{};        // the strain rate is wanted
-    double shift_factor{};      // C U dt 2h [m^2]
+    double shift_factor{};      // C dt 2h [m s]
+    double shift_speed{};       // [m/s] U of every particle, beside that of its strain rate
+    double strain_length{};     // [m] U = strain_length |grad v|
     double W_dx{};              // W at one spacing
     double dynamic_pressure{};  // rho0 U^2 [Pa]
-    double noise{};             // [m] length of a random displacement added to the shift
+    double noise{};             // [s] length of a random displacement added to the shift, over U
     std::uint64_t step{};       // drives its direction
     ShiftingLimits limits;
 };
@@ -161,15 +163,13 @@ struct GeometryPass {
         }
     }
 
-    // Symmetric part of the corrected velocity gradient [1/s].
-    static Symmetric<D> strain_rate(const Sums& sums, const Symmetric<D>& L) {
-        std::array<std::array<double, D>, D> grad_v;
+    // Row k: the corrected gradient of v_k [1/s]; 0 where too little is around to tell.
+    static std::array<std::array<double, D>, D> velocity_gradient(const Sums& sums, const Symmetric<D>& L,
+                                                                  double eigenvalue) {
+        std::array<std::array<double, D>, D> grad_v{};
+        if (eigenvalue < kGradientEigenvalue) return grad_v;
         for (int k = 0; k < D; ++k) grad_v[k] = L * sum_lanes(sums.grad_v[k]);
-        Symmetric<D> strain;
-        for (int r = 0; r < D; ++r) {
-            for (int c = r; c < D; ++c) strain(r, c) = 0.5 * (grad_v[r][c] + grad_v[c][r]);
-        }
-        return strain;
+        return grad_v;
     }
 
     HEADRACE_ALWAYS_INLINE void store(Index i, const Self&, const Sums& sums) const {
@@ -187,20 +187,26 @@ struct GeometryPass {
         write_vector<D>(state.normal, i, normal);
         write_vector<D>(state.grad_delta, i, grad_delta);
         if constexpr (HasGradients) {
+            const auto grad_v = velocity_gradient(sums, L, eigenvalue);
+            double grad2 = 0.0;
+            for (const auto& row : grad_v) grad2 += dot<D, double>(row, row);
+            const double U = (options.shift_speed + options.strain_length * std::sqrt(grad2)) *
+                             shifting_need(options.dynamic_pressure, data.particles.p[i]);
             std::array<double, D> dx = sum_lanes(sums.shift);
-            const double need = shifting_need(options.dynamic_pressure, data.particles.p[i]);
-            for (double& component : dx) component *= -options.shift_factor * need;
+            for (double& component : dx) component *= -options.shift_factor * U;
             if (options.noise > 0.0 && eigenvalue > options.limits.surface_eigenvalue) {
                 const std::array<double, D> e =
                     separation_direction<D>(data.particles.id[i], 0xffffffffu, options.step);
-                for (int k = 0; k < D; ++k) dx[k] += need * options.noise * e[k];
+                for (int k = 0; k < D; ++k) dx[k] += options.noise * U * e[k];
             }
             dx = limit_shift<D>(dx, eigenvalue, normal, options.limits);
-            const std::array<double, D> L_dx = L * dx;  // (L grad) . dx = grad . (L dx): L is symmetric
             std::array<double, D> dv;
-            for (int k = 0; k < D; ++k) dv[k] = dot<D, double>(sum_lanes(sums.grad_v[k]), L_dx);
+            for (int k = 0; k < D; ++k) dv[k] = dot<D, double>(grad_v[k], dx);
             Symmetric<D> strain;
-            if (options.reconstructs && eigenvalue >= kGradientEigenvalue) strain = strain_rate(sums, L);
+            for (int r = 0; r < D; ++r) {
+                for (int c = r; c < D; ++c)
+                    strain(r, c) = options.reconstructs ? 0.5 * (grad_v[r][c] + grad_v[c][r]) : 0.0;
+            }
             write_matrix<D>(state.strain, i, strain);
             write_vector<D>(state.dx, i, dx);
             write_vector<D>(state.dv, i, dv);

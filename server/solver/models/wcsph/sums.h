@@ -6,6 +6,7 @@
 
 #include "server/solver/isa.h"
 #include "server/solver/models/wcsph/passes.h"
+#include "server/solver/models/wcsph/tension_passes.h"
 #include "server/solver/smoothing_kernels.h"
 
 namespace headrace::solver {
@@ -14,8 +15,9 @@ class WcsphSums {
   public:
     virtual ~WcsphSums() = default;
 
-    virtual double W(double r) const = 0;  // [m^-D]
-    virtual double F(double r) const = 0;  // [m^-(D+2)]
+    virtual double W(double r) const = 0;      // [m^-D]
+    virtual double F(double r) const = 0;      // [m^-(D+2)]
+    virtual double dF_dr(double r) const = 0;  // [m^-(D+3)]
 
     virtual void geometry(const PairInput& in, const PassData& data, const GeometryOptions& options) = 0;
     virtual void continuity(const PairInput& in, const PassData& data, DensityDiffusion diffusion,
@@ -24,6 +26,8 @@ class WcsphSums {
                           const PressureOptions& options) = 0;
     virtual void viscosity(const PairInput& in, const PassData& data, bool is_morris,
                            const ViscosityOptions& options) = 0;
+    virtual void continuum_tension(const PairInput& in, const PassData& data, const TensionOptions& options) = 0;
+    virtual void thesis_tension(const PairInput& in, const PassData& data, const TensionOptions& options) = 0;
     virtual void wall_pressure(const PairInput& in, const PassData& data, const WallPressureOptions& options) = 0;
 };
 

@@ -33,6 +33,7 @@ class SumsOf final : public WcsphSums {
 
     double W(double r) const override { return kernel_.W(r); }
     double F(double r) const override { return kernel_.F(r); }
+    double dF_dr(double r) const override { return kernel_.dF_dr(r); }
 
     void geometry(const PairInput& in, const PassData& data, const GeometryOptions& options) override {
         if (options.shifting || options.reconstructs) {
@@ -74,6 +75,15 @@ class SumsOf final : public WcsphSums {
         } else {
             run(in, ViscosityPass<D, Kernel, false>{kernel_, data, options});
         }
+    }
+
+    void continuum_tension(const PairInput& in, const PassData& data, const TensionOptions& options) override {
+        run(in, SurfaceDirectionPass<D, Kernel>{kernel_, data, options});
+        run(in, ContinuumTensionPass<D, Kernel>{kernel_, data, options});
+    }
+
+    void thesis_tension(const PairInput& in, const PassData& data, const TensionOptions& options) override {
+        run(in, ThesisTensionPass<D, Kernel>{kernel_, data, options});
     }
 
     void wall_pressure(const PairInput& in, const PassData& data, const WallPressureOptions& options) override {

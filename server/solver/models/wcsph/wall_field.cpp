@@ -3,12 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/solver/forces/separation.h"
 #include "server/solver/parallel.h"
 
 namespace headrace::solver {
 
+namespace {
+
+// Where in the skin of a surface a particle is put: its own share of it for each of the surfaces that hold it, or all
+// that are driven into a corner would coincide there for ever.
+constexpr double kSurfaceSkin = 0.02;  // [spacings]
+double skin_share(Index id, int turn) {
+    return static_cast<double>(mix((std::uint64_t{id} << 2) | static_cast<std::uint64_t>(turn)) >> 11) * 0x1p-53;
+}
+
+}  // namespace
+
 WallField::WallField(int dimensions, double spacing, double support)
-    : dimensions_(dimensions), walls_(dimensions, spacing, support) {}
+    : dimensions_(dimensions), spacing_(spacing), walls_(dimensions, spacing, support) {}
 
 void WallField::place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options) {
     if (anew) {
@@ -73,7 +85,7 @@ void WallField::stop_at(std::size_t object, const Vec3& n, const Vec3& x, Vec3& 
     for (int k = 0; k < dimensions_; ++k) v[k] -= std::min(into, 0.0) * n[k];
 }
 
-bool WallField::put_back(Vec3& x, Vec3& v, double dt) const {
+bool WallField::put_back(Index id, Vec3& x, Vec3& v, double dt) const {
     constexpr int kMostSurfaces = 4;  // a corner of three, and one more
     bool is_moved = false;
     if (walls_.has_thin()) {
@@ -93,7 +105,8 @@ bool WallField::put_back(Vec3& x, Vec3& v, double dt) const {
         Vec3 n{};
         const double distance = walls_.distance_to_any(x, &object, &n);
         if (distance >= 0.0) break;
-        for (int k = 0; k < dimensions_; ++k) x[k] -= distance * n[k];
+        const double way = kSurfaceSkin * spacing_ * skin_share(id, turn) - distance;
+        for (int k = 0; k < dimensions_; ++k) x[k] += way * n[k];
         stop_at(object, n, x, v);
         is_moved = true;
     }
@@ -114,7 +127,7 @@ std::uint64_t WallField::hold(Particles& particles, const CellGrid& grid, double
                     x[k] = particles.x[k][i];
                     v[k] = particles.v[k][i];
                 }
-                if (!put_back(x, v, dt)) continue;
+                if (!put_back(particles.id[i], x, v, dt)) continue;
                 ++counts[first / kCellBlock];
                 for (int k = 0; k < dimensions_; ++k) {
                     particles.x[k][i] = x[k];

@@ -42,10 +42,11 @@ class WallField {
 
   private:
     void evaluate_gravity(const Surroundings& surroundings, double t, const Vec3& gravity);
-    bool put_back(Vec3& x, Vec3& v, double dt) const;
+    bool put_back(Index id, Vec3& x, Vec3& v, double dt) const;
     void stop_at(std::size_t object, const Vec3& n, const Vec3& x, Vec3& v) const;
 
     int dimensions_;
+    double spacing_;  // [m]
     Walls walls_;
     WallState state_;
     std::vector<double> scratch_;

@@ -9,7 +9,9 @@
 
 #include "server/solver/eos.h"
 #include "server/solver/faults.h"
+#include "server/solver/models/wcsph/coincident.h"
 #include "server/solver/models/wcsph/energies.h"
+#include "server/solver/models/wcsph/health.h"
 #include "server/solver/models/wcsph/inspection.h"
 #include "server/solver/models/wcsph/loads.h"
 #include "server/solver/models/wcsph/parameters.h"
@@ -38,8 +40,7 @@ class Wcsph final : public Model {
           support_(p_.support_over_spacing * spacing),
           walls_(dimensions, spacing, support_),
           sums_(make_wcsph_sums(dimensions, p_.kernel, support_, best_isa())) {
-        const auto W = [this](double r) { return sums_->W(r); };
-        flat_surface_ = dimensions == 2 ? make_flat_surface<2>(W, support_) : make_flat_surface<3>(W, support_);
+        set_flat_surface();
     }
 
     std::string_view name() const override { return "wcsph"; }
@@ -118,9 +119,14 @@ class Wcsph final : public Model {
         if (energies_.is_on()) energies_.count_loss(before, stored_energy(particles, surroundings));
     }
 
+    void set_flat_surface() {
+        const auto W = [this](double r) { return sums_->W(r); };
+        flat_surface_ = dimensions_ == 2 ? make_flat_surface<2>(W, support_) : make_flat_surface<3>(W, support_);
+    }
     void set_state_equation();
     void use_new_parameters(Particles& particles, const Surroundings& surroundings);
     StepChoice limit_step(double dt_before) const;
+    RunLimits run_limits() const;
     void resize_state(std::size_t count);
     void sort_all(Particles& particles, const Surroundings& surroundings);
     void wrap(Particles& particles, const Domain& domain) const;
@@ -159,11 +165,13 @@ class Wcsph final : public Model {
 
     double max_speed_{}, max_acceleration_{};  // [m/s], [m/s^2] at the end of the last step
     bool has_new_parameters_{false};
+    bool has_new_stiffness_{false};  // among them what the sound speed's rule depends on
     EnergyAccount energies_;
     std::vector<std::string> object_names_;  // of the walls' objects
     std::uint64_t step_{};
-    std::uint64_t put_back_{};  // particles put back on a wall's surface so far
-    double moved_{};            // [m] at most, since the last sort
+    std::uint64_t put_back_{};   // particles put back on a wall's surface so far
+    std::uint64_t separated_{};  // coincident pairs, so far
+    double moved_{};             // [m] at most, since the last sort
     StepChoice next_;
     std::array<double, kStageCount> seconds_{};
     std::vector<double> scratch_;
@@ -209,6 +217,8 @@ void Wcsph::relax(Particles& particles, const Surroundings& surroundings, const 
     for (std::size_t i = 0; i < particles.size(); ++i) may_move[particles.id[i]] = spread[i];
     GeometryOptions options = geometry_options(true);
     options.shift_factor = 0.5 * h() * h();
+    options.shift_speed = 1.0;
+    options.strain_length = 0.0;
     options.dynamic_pressure = 1.0;
     options.noise = 0.0;
     for (int turn = 0; turn < kMostTurns; ++turn) {
@@ -276,7 +286,9 @@ void Wcsph::sort_all(Particles& particles, const Surroundings& surroundings) {
     for (MatrixField* field : {&state_.B, &state_.pB, &state_.strain})
         for (int k = 0; k < symmetric_size(dimensions_); ++k) permute((*field)[k]);
     if (energies_.is_on()) energies_.permute(grid_, scratch_);
-    moved_ = 0.0;
+    const std::uint64_t coincident = separate_coincident(particles, grid_, spacing_, step_);
+    moved_ = coincident > 0 ? kCoincidentWay * spacing_ : 0.0;
+    separated_ += coincident;
 }
 
 void Wcsph::place_walls(const Surroundings& surroundings, double t, bool anew) {
@@ -310,10 +322,11 @@ GeometryOptions Wcsph::geometry_options(bool shifts) const {
     options.shifting = shifts;
     options.reconstructs =
         p_.artificial_viscosity > 0.0 && p_.artificial_viscosity_form == ArtificialViscosity::reconstructed;
-    options.shift_factor = p_.shifting_factor * max_speed_ * next_.dt * 2.0 * h();
+    options.shift_factor = p_.shifting_factor * next_.dt * 2.0 * h();
+    options.strain_length = kShiftStrainLength * h();
     options.W_dx = sums_->W(spacing_);
     options.dynamic_pressure = p_.rest_density * max_speed_ * max_speed_;
-    options.noise = kShiftNoise * max_speed_ * next_.dt;
+    options.noise = kShiftNoise * next_.dt;
     options.limits.longest = p_.shifting_limit * spacing_;
     if (!p_.free_surface) options.limits.surface_eigenvalue = options.limits.spray_eigenvalue = -1.0;
     return options;
@@ -529,6 +542,11 @@ StepChoice Wcsph::limit_step(double dt_before) const {
     return choice;
 }
 
+RunLimits Wcsph::run_limits() const {
+    return {c0_,    p_.cfl * h() / c0_,    next_.dt,     next_.criterion,
+            p_.cfl, WcsphParameters{}.cfl, p_.time_step, p_.sound_speed == 0.0};
+}
+
 // Speeds, the next step's length, what went wrong.
 StepReport Wcsph::finish(Particles& particles, const Surroundings& surroundings, double dt) {
     StepReport report;
@@ -541,21 +559,14 @@ StepReport Wcsph::finish(Particles& particles, const Surroundings& surroundings,
         }
         Inspection found = solver::inspect(particles, room);
         max_speed_ = found.max_speed;
-        max_acceleration_ = std::sqrt(parallel_reduce(
-            particles.size(), 0.0,
-            [&](std::size_t begin, std::size_t end) {
-                double largest = 0.0;
-                for (std::size_t i = begin; i < end; ++i) {
-                    double a2 = 0.0;
-                    for (int k = 0; k < dimensions_; ++k) a2 += particles.a[k][i] * particles.a[k][i];
-                    largest = std::max(largest, a2);
-                }
-                return largest;
-            },
-            [](double a, double b) { return std::max(a, b); }));
+        const Extremes extremes = find_extremes(particles, state_.delta);
+        max_acceleration_ = extremes.max_acceleration;
         next_ = limit_step(dt > 0.0 ? next_.dt : 0.0);
         report = {dt, found.max_speed, std::move(found.fault)};
-        if (report.fault) report.fault->remedy = "check the scene, or reduce cfl";
+        if (report.fault)
+            report.fault->remedy = remedy_for(report.fault->kind, run_limits());
+        else
+            report.fault = check_health(particles, extremes, run_limits());
     });
     return report;
 }
@@ -573,12 +584,16 @@ std::optional<ParameterError> Wcsph::set_parameters(const ParameterMap& values) 
     if (auto error = check_parameters(table_, values)) return error;
     for (const auto& [key, value] : values) overrides_[key] = value;
     has_new_parameters_ = true;
+    for (const char* name :
+         {"gravity", "viscosity", "rest_density", "sound_speed", "reference_speed", "reference_length"})
+        has_new_stiffness_ = has_new_stiffness_ || values.contains(name);
     energies_.follow(energies_.is_on());  // another fluid: the account begins anew
     p_ = make_wcsph_parameters(overrides_);
     return std::nullopt;
 }
 
-// Particles keep their volume: another rest density changes their mass, another sound speed their pressure.
+// Particles keep their volume when the rest density changes: the pressure of still fluid grows with it. They keep their
+// pressure when the state equation changes: kept densities would put energy into the fluid with each stiffening.
 void Wcsph::use_new_parameters(Particles& particles, const Surroundings& surroundings) {
     const double rest_density_before = eos_.rho0_c2 / (c0_ * c0_);
     const double factor = p_.rest_density / rest_density_before;
@@ -586,12 +601,16 @@ void Wcsph::use_new_parameters(Particles& particles, const Surroundings& surroun
         for (double& m : particles.m) m *= factor;
     support_ = p_.support_over_spacing * spacing_;
     sums_ = make_wcsph_sums(dimensions_, p_.kernel, support_, best_isa());
+    set_flat_surface();
     walls_ = WallField(dimensions_, spacing_, support_);
     place_walls(surroundings, surroundings.time, true);
     const double c0_before = c0_;
-    c0_ = choose_sound_speed(p_, particles, spacing_, walls_.max_speed());
+    // Only when what the rule depends on has changed: its speeds are those of now.
+    if (std::exchange(has_new_stiffness_, false)) c0_ = choose_sound_speed(p_, particles, spacing_, walls_.max_speed());
     if (p_.sound_speed <= 0.0) c0_ = std::max(c0_, c0_before);  // the rule may stiffen a running fluid, never soften it
+    const StateEquation eos_before = eos_;
     set_state_equation();
+    for (double& delta : state_.delta) delta = eos_.deviation(factor * eos_before.pressure(delta));
     sort_all(particles, surroundings);
     compute_state(particles, 0.0, 0.0);
     next_ = limit_step(next_.dt);
@@ -617,7 +636,10 @@ std::string Wcsph::walls_reason() const {
 }
 
 std::vector<Stage> Wcsph::plan(const Surroundings&) const {
-    return {{"neighbours", true, "cells, reused while nothing has moved out of them", seconds_[kNeighbours]},
+    return {{"neighbours", true,
+             "cells, reused while nothing has moved out of them; " + std::to_string(separated_) +
+                 " coincident pairs moved apart so far",
+             seconds_[kNeighbours]},
             {"geometry", true, "moment matrices, free surface, shift", seconds_[kGeometry]},
             {"slow_forces", true, "gravity, body force, viscosity, tension", seconds_[kSlow]},
             {"continuity", true, "density", seconds_[kContinuity]},

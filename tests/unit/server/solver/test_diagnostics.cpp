@@ -15,6 +15,7 @@ Particles make_cloud(unsigned seed) {
     Particles particles = make_particles(3, random_points(5000, 1.0, seed));
     particles.v = particles.x;
     particles.v_half = particles.x;
+    particles.m.assign(particles.size(), 0.02);
     for (std::size_t i = 0; i < particles.size(); ++i) particles.rho[i] = 1000.0 + static_cast<double>(i % 7);
     return particles;
 }
@@ -26,10 +27,11 @@ TEST_CASE("Diagnostics.ValuesByHand") {
     particles.v[0] = {3.0, 0.0};
     particles.v[1] = {4.0, 1.0};
     particles.rho = {900.0, 1100.0};
-    const Diagnostics found = compute_diagnostics(particles, 0.5, {0.0, -10.0, 0.0});
+    particles.m = {0.5, 0.4};
+    const Diagnostics found = compute_diagnostics(particles, {0.0, -10.0, 0.0});
     CHECK(found.max_speed == 5.0);
-    CHECK(found.kinetic_energy == Approx(0.5 * 0.5 * 26.0));
-    CHECK(found.potential_energy == Approx(0.5 * 10.0 * (2.0 - 1.0)));
+    CHECK(found.kinetic_energy == Approx(0.5 * (0.5 * 25.0 + 0.4 * 1.0)));
+    CHECK(found.potential_energy == Approx(10.0 * (0.5 * 2.0 - 0.4 * 1.0)));
     CHECK(found.mean_density == 1000.0);
     CHECK(found.max_density == 1100.0);
     CHECK(compute_slow_share(particles, 5.0) == 0.5);
@@ -39,7 +41,7 @@ TEST_CASE("Diagnostics.ValuesByHand") {
 
 TEST_CASE("Diagnostics.EmptySceneIsAtRest") {
     const Particles none = make_particles(3, {});
-    CHECK(compute_diagnostics(none, 1.0, {}).mean_density == 0.0);
+    CHECK(compute_diagnostics(none, {}).mean_density == 0.0);
     CHECK(compute_slow_share(none, 0.1) == 1.0);
     CHECK(compute_state_hash(none) == 0);
 }
@@ -48,10 +50,10 @@ TEST_CASE("Diagnostics.SameBitsForAnyThreadCount") {
     const Particles particles = make_cloud(3);
     const int before = max_threads();
     omp_set_num_threads(1);
-    const Diagnostics one = compute_diagnostics(particles, 0.02, {0.1, -9.82, 0.3});
+    const Diagnostics one = compute_diagnostics(particles, {0.1, -9.82, 0.3});
     for (const int threads : {2, 3, 4}) {
         omp_set_num_threads(threads);
-        const Diagnostics many = compute_diagnostics(particles, 0.02, {0.1, -9.82, 0.3});
+        const Diagnostics many = compute_diagnostics(particles, {0.1, -9.82, 0.3});
         CHECK(many.kinetic_energy == one.kinetic_energy);
         CHECK(many.potential_energy == one.potential_energy);
         CHECK(many.mean_density == one.mean_density);

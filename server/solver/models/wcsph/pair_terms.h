@@ -1,0 +1,113 @@
+// What one pair gives to the acceleration of particle i, term by term: the formulas of the passes for one pair at a
+// time. For what is asked rarely: forces on objects, the explanation of a particle.
+#pragma once
+
+#include "server/solver/models/wcsph/passes.h"
+#include "server/solver/models/wcsph/tension_passes.h"
+
+namespace headrace::solver {
+
+// What the passes see, to read only.
+struct WcsphView {
+    const Particles& particles;
+    const WcsphState& state;
+    const WallParticles& walls;
+    const WallState& wall_state;
+};
+
+// Which forms the terms have; as the passes are given.
+struct TermOptions {
+    bool is_adjoint{};
+    bool is_morris{};
+    PressureOptions pressure;
+    ViscosityOptions viscosity;  // mu = 0: none
+    bool is_continuum{};         // surface tension
+    TensionOptions tension;      // sigma = 0: none
+};
+
+template <int D>
+Pair<D, double> make_pair_of(const std::array<double, D>& x_ij, double V_j) {
+    const double r2 = dot<D, double>(x_ij, x_ij);
+    return {x_ij, r2, std::sqrt(r2), V_j};
+}
+
+template <int D>
+class PairTerms {
+  public:
+    using Vector = std::array<double, D>;
+
+    PairTerms(const WcsphView& view, const TermOptions& options) : view_(view), options_(options) {}
+
+    Vector pressure(Index i, Index j, const Pair<D, double>& pair, double F) const {
+        PressureSums<D, double> sums;
+        const Vector grad = scaled<D, double>(pair.V_j * F, pair.x_ij);
+        if (options_.is_adjoint) {
+            accumulate_adjoint<D, double>(grad, matrix_at<D>(view_.state.pB, j), sums);
+        } else {
+            accumulate_difference<D, double>(grad, view_.particles.p[j], sums);
+        }
+        return pressure_acceleration(i, sums);
+    }
+
+    Vector wall_pressure(Index i, Index w, const Pair<D, double>& pair, double F) const {
+        PressureSums<D, double> sums;
+        accumulate_difference<D, double>(scaled<D, double>(pair.V_j * F, pair.x_ij), view_.wall_state.p[w], sums);
+        return pressure_acceleration(i, sums);
+    }
+
+    Vector artificial_viscosity(Index i, Index j, const Pair<D, double>& pair, double F) const {
+        const Symmetric<D> S_i = matrix_at<D>(view_.state.strain, i), S_j = matrix_at<D>(view_.state.strain, j);
+        const double factor = approach_factor<D, double>(pair, F, velocity_difference(i, j), mean(S_i, S_j));
+        return scaled<D, double>(options_.pressure.artificial_viscosity / view_.particles.rho[i] * factor, pair.x_ij);
+    }
+
+    Vector viscosity(Index i, Index j, const Pair<D, double>& pair, double F) const {
+        const Symmetric<D> B = mean(matrix_at<D>(view_.state.B, i), matrix_at<D>(view_.state.B, j));
+        const double corrected = corrected_factor<D, double>(pair, F, B);
+        Vector sum{};
+        if (options_.is_morris) {
+            accumulate_morris<D, double>(pair, corrected, velocity_difference(i, j), sum);
+        } else {
+            accumulate_monaghan_gingold<D, double>(pair, corrected, velocity_difference(i, j), sum);
+        }
+        return scaled<D, double>(options_.viscosity.mu / view_.particles.rho[i], sum);
+    }
+
+    Vector wall_viscosity(Index i, Index w, const Pair<D, double>& pair, double F) const {
+        const double corrected =
+            view_.wall_state.no_slip[w] * corrected_factor<D, double>(pair, F, matrix_at<D>(view_.state.B, i));
+        const Vector v_iw = no_slip_difference<D, double>(
+            pair, vector_at<D>(view_.walls.n, w), view_.walls.depth[w], vector_at<D>(view_.particles.v, i),
+            vector_at<D>(view_.walls.v, w), options_.viscosity.least_distance);
+        Vector sum{};
+        accumulate_morris<D, double>(pair, corrected, v_iw, sum);
+        return scaled<D, double>(options_.viscosity.mu / view_.particles.rho[i], sum);
+    }
+
+  private:
+    static Symmetric<D> mean(const Symmetric<D>& a, const Symmetric<D>& b) {
+        Symmetric<D> mean;
+        for (int k = 0; k < Symmetric<D>::kSize; ++k) mean.e[k] = 0.5 * (a.e[k] + b.e[k]);
+        return mean;
+    }
+
+    Vector velocity_difference(Index i, Index j) const {
+        Vector v_ij;
+        for (int k = 0; k < D; ++k) v_ij[k] = view_.particles.v[k][i] - view_.particles.v[k][j];
+        return v_ij;
+    }
+
+    // Both forms are linear in the sums, so that of one pair is the pair's share.
+    Vector pressure_acceleration(Index i, const PressureSums<D, double>& sums) const {
+        const double p = view_.particles.p[i], rho = view_.particles.rho[i];
+        if (!options_.is_adjoint) return difference_acceleration<D>(sums, p, matrix_at<D>(view_.state.B, i), rho);
+        const bool is_controlled = options_.pressure.controls_tension && p < 0.0 &&
+                                   view_.state.min_eigenvalue[i] > options_.pressure.tension_eigenvalue;
+        return adjoint_acceleration<D>(sums, matrix_at<D>(view_.state.pB, i), is_controlled ? -1.0 : 1.0, rho);
+    }
+
+    const WcsphView& view_;
+    const TermOptions& options_;
+};
+
+}  // namespace headrace::solver
