@@ -114,7 +114,8 @@ template <int D>
     }
     for (std::size_t j = 0, run = 0, slot = 0; run < static_cast<std::size_t>(near_walls.runs); ++run) {
         for (slot = near_walls.run[run].begin; slot < near_walls.run[run].end; ++slot, ++j) {
-            walls.field(D)[j] = in.thin_walls->sees(here, slot) ? in.walls.V[slot] : 0.0;
+            const bool is_seen = is_near(point(walls, j)) && in.thin_walls->sees(here, slot);
+            walls.field(D)[j] = is_seen ? in.walls.V[slot] : 0.0;
         }
     }
 }
@@ -123,11 +124,18 @@ template <int D>
 template <int D>
 [[gnu::noinline]] void hide_fluid_from_wall(const PairInput& in, Index wall, const Neighbourhood& near,
                                             Candidates& fluid) {
+    Vec3 x_wall{};
+    for (int k = 0; k < D; ++k) x_wall[k] = (*in.centres.x)[k][wall];
     for (std::size_t j = 0, run = 0, slot = 0; run < static_cast<std::size_t>(near.runs); ++run) {
         for (slot = near.run[run].begin; slot < near.run[run].end; ++slot, ++j) {
             Vec3 x{};
-            for (int k = 0; k < D; ++k) x[k] = fluid.field(k)[j];
-            fluid.field(D)[j] = in.thin_walls->sees(x, wall) ? in.fluid.V[slot] : 0.0;
+            double r2 = 0.0;
+            for (int k = 0; k < D; ++k) {
+                x[k] = fluid.field(k)[j];
+                r2 += (x[k] - x_wall[k]) * (x[k] - x_wall[k]);
+            }
+            const bool is_seen = r2 < in.support * in.support && in.thin_walls->sees(x, wall);
+            fluid.field(D)[j] = is_seen ? in.fluid.V[slot] : 0.0;
         }
     }
 }
@@ -154,7 +162,8 @@ HEADRACE_ALWAYS_INLINE void sum_over_pairs(const PairInput& in, const Pass& pass
         if (in.thin_walls != nullptr) {
             Vec3 x{};
             for (int k = 0; k < D; ++k) x[k] = (*in.centres.x)[k][cell.begin];
-            is_near_thin = in.thin_walls->is_near_thin(x, 4.0 * in.support);
+            // A cell's diagonal away at most: sqrt(3) (R + skin) < 2.5 R.
+            is_near_thin = in.thin_walls->is_near_thin(x, 2.5 * in.support);
         }
         for (Index i = cell.begin; i < cell.end; ++i) {
             std::array<double, D> x_i;

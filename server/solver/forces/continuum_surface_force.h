@@ -1,87 +1,112 @@
 // Surface tension as a continuum surface force, f = sigma kappa grad_c (Brackbill, Kothe, Zemach 1992, J. Comput. Phys.
-// 100, 335), in a form that conserves momentum.
+// 100, 335), written as the divergence of a stress along the surface, which conserves momentum (Lafaurie et al. 1994,
+// J. Comput. Phys. 113, 134):
 //
-// The colour is c_i = sum_j V_j W_ij, fluid and walls alike; n_i = sum_j V_j grad_W_ij points into the fluid. Particles
-// see only the inner half of the step of c, so the area of the surface is twice what they sum up:
+//   f_i = (2 sigma/C) sum_j V_j (S_i + S_j) grad_i W^t_ij,   S = g |n| (1 - n n/n^2) + s 1
 //
-//   E = 2 sigma/C sum_i V_i g(|n_i|),   g(n) = n for a surface, 0 inside
-//   f_k = -(1/V_k) dE/dx_k = -2 sigma/C sum_j V_j H_kj (q_k - q_j),   q = g'(|n|) n/|n|,   H = grad grad W
+// The colour is c_i = sum_j V_j W_ij, fluid and walls alike; n_i = sum_j V_j grad_i W_ij points into the fluid.
+// Particles see only the inner half of the step of c: hence the 2. The sum over neighbours that end at the surface and
+// the weight g take more from it: C is what they leave of a flat surface, see make_flat_surface(). g is 0 where |n| is
+// small: inside the fluid n is noise without direction.
 //
-// Volumes are held. q is the unit normal where n is large; g' falls smoothly to 0 where n is small, since inside the
-// fluid n is noise without direction. C is what g loses of a flat surface: 1 for g = n. A wall has q = 0: it counts as
-// fluid and has no surface of its own, so fluid meets it at 90 degrees.
+// W^t = N (1 - r^2/R^2)^3: under tension pairs clump where W'' > 0. Here that begins at 0.45 R, beyond the nearest
+// neighbours; with Wendland's kernels at 0.25 R and less.
 //
-// Why not sigma kappa n with kappa = -div n/|n| at each particle: its sum over a drop is not zero, and the drop flies
-// away. To first order the form above is the same: for unit normals that vary along the surface with curvature kappa,
-// sum_j V_j H (q_i - q_j) = -kappa n_i; a flat surface feels nothing, whatever its particles' distances. With one
-// pressure p throughout, -2 p n of the adjoint pressure force (B = 1 at a surface) is balanced by 2 sigma kappa n
-// particle by particle where p = sigma kappa.
+// Cohesion s = 5 n_flat (c_0 - c) where c < c_0, else 0: the stress alone pushes a particle that sticks out of the
+// surface still further, since the pull of its neighbours ends sooner than the pressure does. An isotropic stress
+// carries no tension: the pressure balances it.
+//
+// Not sigma kappa n at each particle: its sum over a drop is not 0. From kappa = -div n/|n| of reliable neighbours the
+// drop at rest is smoother, but its momentum grows, and an oscillating drop breaks up.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "server/solver/pair.h"
+#include "server/solver/symmetric.h"
 
 namespace headrace::solver {
 
 // |n| as a share of a flat surface's, between which a particle begins to belong to the surface.
 inline constexpr double kNoSurface = 0.05, kFullSurface = 0.2;
 
-// g' of s = |n|/n_flat: 0 below kNoSurface, 1 above kFullSurface, a smooth step between.
+// Cohesion begins below this colour: just above that of the outermost layer, half a spacing below a flat surface.
+inline constexpr double kCohesiveColour = 0.75;
+inline constexpr double kCohesion = 5.0;  // chosen: below 3 particles leave the surface of a drop at rest
+
+// g of s = |n|/n_flat: 0 below kNoSurface, 1 above kFullSurface, a smooth step between.
 inline double surface_weight(double s) {
-    if (s <= kNoSurface) return 0.0;
-    if (s >= kFullSurface) return 1.0;
-    const double u = (s - kNoSurface) / (kFullSurface - kNoSurface);
+    const double u = std::clamp((s - kNoSurface) / (kFullSurface - kNoSurface), 0.0, 1.0);
     return u * u * (3.0 - 2.0 * u);
 }
 
-// q of the gradient n [1/m].
+// S [1/m] of the gradient n [1/m] and the colour c.
 template <int D>
-std::array<double, D> surface_direction(const std::array<double, D>& n, double n_flat) {
+Symmetric<D> surface_stress(const std::array<double, D>& n, double c, double n_flat) {
     const double length = std::sqrt(dot<D, double>(n, n));
     const double weight = surface_weight(length / n_flat);
-    if (weight == 0.0) return {};
-    std::array<double, D> q = n;
-    for (double& component : q) component *= weight / length;
-    return q;
+    const double cohesion = kCohesion * n_flat * std::max(kCohesiveColour - c, 0.0);
+    Symmetric<D> S;
+    for (int k = 0; k < D; ++k) S(k, k) = weight * length + cohesion;
+    if (weight == 0.0) return S;
+    for (int k = 0; k < D; ++k) {
+        for (int l = k; l < D; ++l) S(k, l) -= weight * n[k] * n[l] / length;
+    }
+    return S;
 }
 
-// V_j H u with H = grad grad W = F 1 + dF/dr x (x) x / r.
-template <int D, class T>
-HEADRACE_ALWAYS_INLINE void accumulate_hessian(const Pair<D, T>& pair, const T& F, const T& dF_dr,
-                                               const VectorOf<D, T>& u, VectorOf<D, T>& sum) {
-    const T r = maximum(pair.r, splat<T>(1e-30));  // at r = 0 x_ij is 0, and so is the term
-    const T along = pair.V_j * dF_dr / r * dot<D, T>(pair.x_ij, u);
-    add_to<D, T>(sum, scaled<D, T>(along, pair.x_ij));
-    add_to<D, T>(sum, scaled<D, T>(pair.V_j * F, u));
-}
+// W^t, its norm N = 4/(pi R^2) in 2D, 315/(64 pi R^3) in 3D.
+template <int D>
+class TensionKernel {
+  public:
+    explicit TensionKernel(double R)
+        : inv_R2_(1.0 / (R * R)),
+          slope_((D == 2 ? -24.0 / std::numbers::pi : -945.0 / (32.0 * std::numbers::pi) / R) / (R * R * R * R)) {}
+
+    // W'/r
+    template <class T>
+    HEADRACE_ALWAYS_INLINE T F(const T& r2) const {
+        const T u = positive_or_zero<T>(1.0 - r2 * inv_R2_);
+        return slope_ * u * u;
+    }
+
+  private:
+    double inv_R2_, slope_;
+};
 
 // A flat surface under the kernel W of support R.
 struct FlatSurface {
     double n{};  // |n| at the surface [1/m]
-    double C{};  // 2 times the integral of g' a |dn/da| over the depth a: what g leaves of the tension [1]
+    double C{};  // [1] tension that the sums find there, without the factor C, over sigma
 };
 
-// n(a) is the integral of W over the plane at distance a; by parts, the integral of g(n) is that of g' a |dn/da|.
+// At the depth a, |n| is the integral of W over the plane at distance a. Stretching the surface by e along itself does
+// the work 2 sigma e times the integral of g |n| m, m(a): moment of W^t along the surface, 1/2 at it and growing by the
+// integral of -F^t x^2 over the plane. For W^t = W and g = 1 this gives C = 3/4.
 template <int D, class W>
 FlatSurface make_flat_surface(W&& kernel, double R) {
     constexpr int kSlices = 400;  // midpoint rule, error 1e-5 of the whole
     const double step = R / kSlices;
-    const auto n_at = [&](double a) {
+    const TensionKernel<D> tension(R);
+    const auto over_plane = [&](double a, auto&& value) {
         double sum = 0.0;
         for (int k = 0; k < kSlices; ++k) {
-            const double t = (k + 0.5) * step, ring = D == 2 ? 2.0 : 2.0 * std::numbers::pi * t;
-            sum += ring * step * kernel(std::sqrt(a * a + t * t));
+            const double t = (k + 0.5) * step;
+            sum += (D == 2 ? 2.0 : 2.0 * std::numbers::pi * t) * step * value(t, a * a + t * t);
         }
         return sum;
     };
+    const auto n_at = [&](double a) { return over_plane(a, [&](double, double r2) { return kernel(std::sqrt(r2)); }); };
     FlatSurface flat{n_at(0.0), 0.0};
-    double n_before = flat.n;
+    double m = 0.5;
     for (int k = 0; k < kSlices; ++k) {
-        const double n_after = n_at((k + 1) * step);
-        flat.C += 2.0 * surface_weight(0.5 * (n_before + n_after) / flat.n) * (k + 0.5) * step * (n_before - n_after);
-        n_before = n_after;
+        const double a = (k + 0.5) * step, n = n_at(a);
+        // x is one of the D - 1 directions along the surface
+        const double growth = over_plane(a, [&](double t, double r2) { return -tension.F(r2) * t * t / (D - 1); });
+        flat.C += 2.0 * step * surface_weight(n / flat.n) * n * (m + 0.5 * step * growth);
+        m += step * growth;
     }
     return flat;
 }

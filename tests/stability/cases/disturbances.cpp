@@ -71,7 +71,7 @@ void add_changes(std::vector<Scenario>& list) {
     for (const Change& change : make_changes()) {
         for (const std::uint64_t every : {5, 50, 200}) {
             Scenario one{change.name, "every " + std::to_string(every), half_full_box(), 1.0};
-            one.most_steps = 4000;
+            one.most_steps = 1500;
             one.disturb = cycle(change.settings, every);
             one.is_brief = every == 50;
             list.push_back(std::move(one));

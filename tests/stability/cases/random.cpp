@@ -75,7 +75,7 @@ std::vector<Scenario> random_scenarios() {
     std::vector<Scenario> list;
     for (unsigned seed = 0; seed < 100; ++seed) {
         Scenario one{"random_" + std::to_string(seed / 10) + "x", "seed " + std::to_string(seed), random_scene(seed),
-                     1.0};
+                     0.4};
         one.is_brief = seed % 10 == 3;
         list.push_back(std::move(one));
     }

@@ -52,7 +52,7 @@ std::vector<Scenario> rest_scenarios() {
     // The same for the tests, with the steps that they can afford.
     Scenario brief = list.front();
     brief.variant = "2D brief";
-    brief.most_steps = 10'000;
+    brief.most_steps = 4'000;
     brief.is_brief = true;
     list.push_back(std::move(brief));
     return list;

@@ -93,22 +93,23 @@ class TensionTerm {
         return n;
     }
 
+    Symmetric<D> stress_at(const Point& from) const {
+        double c = 0.0;
+        for_each_seen(from, [&](const Point&, const Pair<D, double>& pair) { c += pair.V_j * in_.sums.W(pair.r); });
+        return surface_stress<D>(gradient_at(from), c, in_.options.tension.flat.n);
+    }
+
     Vector continuum_acceleration() const {
         const TensionOptions& tension = in_.options.tension;
-        const auto direction_at = [&](const Point& point) {
-            return surface_direction<D>(gradient_at(point), tension.flat.n);
-        };
-        const Vector q_i = direction_at(points_[centre_]);
+        const TensionKernel<D> kernel(in_.support);
+        const Symmetric<D> S_i = stress_at(points_[centre_]);
         Vector f{};
         for_each_seen(points_[centre_], [&](const Point& to, const Pair<D, double>& pair) {
-            Vector q_ij = q_i;
-            if (!to.wall) {
-                const Vector q_j = direction_at(to);
-                for (int k = 0; k < D; ++k) q_ij[k] -= q_j[k];
-            }
-            accumulate_hessian<D, double>(pair, in_.sums.F(pair.r), in_.sums.dF_dr(pair.r), q_ij, f);
+            Symmetric<D> S = to.wall ? S_i : stress_at(to);
+            for (int k = 0; k < Symmetric<D>::kSize; ++k) S.e[k] += S_i.e[k];
+            add_to<D, double>(f, S * scaled<D, double>(pair.V_j * kernel.F(pair.r2), pair.x_ij));
         });
-        return scaled<D, double>(-2.0 * tension.sigma / (tension.flat.C * rho_), f);
+        return scaled<D, double>(2.0 * tension.sigma / (tension.flat.C * rho_), f);
     }
 
     Vector thesis_acceleration() const {

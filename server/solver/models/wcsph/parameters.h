@@ -38,8 +38,8 @@ struct WcsphParameters {
     PressureGradient pressure_gradient{PressureGradient::automatic};
     double correction_threshold{0.9};  // smallest eigenvalue from which B is used
     DensityDiffusion density_diffusion{DensityDiffusion::antuono};
-    double density_diffusion_factor{0.1};  // xi [1]
-    double artificial_viscosity{0.03};     // alpha [1]
+    double density_diffusion_factor{0.05};  // xi [1]
+    double artificial_viscosity{0.03};      // alpha [1]
     ArtificialViscosity artificial_viscosity_form{ArtificialViscosity::reconstructed};
     ViscosityForm viscosity_form{ViscosityForm::automatic};
     TensionForm tension_form{TensionForm::continuum};

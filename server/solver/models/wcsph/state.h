@@ -26,7 +26,7 @@ struct WcsphState {
     VectorField dx;                      // [m] shift
     VectorField dv;                      // [m/s] what the shift adds to v
     std::vector<double> ddelta;          // [1] and to delta
-    VectorField surface_direction;       // [1] unit normal of the surface, 0 inside; empty without surface tension
+    MatrixField surface_stress;          // [1/m] S of the surface; empty without surface tension
     VectorField a_slow;                  // [m/s^2] gravity, body force, viscosity, surface tension
 
     // computed in each acoustic step

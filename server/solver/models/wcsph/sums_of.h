@@ -78,8 +78,8 @@ class SumsOf final : public WcsphSums {
     }
 
     void continuum_tension(const PairInput& in, const PassData& data, const TensionOptions& options) override {
-        run(in, SurfaceDirectionPass<D, Kernel>{kernel_, data, options});
-        run(in, ContinuumTensionPass<D, Kernel>{kernel_, data, options});
+        run(in, SurfaceStressPass<D, Kernel>{kernel_, data, options});
+        run(in, ContinuumTensionPass<D>{TensionKernel<D>(in.support), data, options});
     }
 
     void thesis_tension(const PairInput& in, const PassData& data, const TensionOptions& options) override {

@@ -1,4 +1,5 @@
-// The passes of surface tension: once per advective step, on the positions of its middle. Both forms add to a_slow.
+// The passes of surface tension: once per advective step, on the positions that the step's force stands for. Both forms
+// add to a_slow.
 #pragma once
 
 #include "server/solver/forces/continuum_surface_force.h"
@@ -13,9 +14,9 @@ struct TensionOptions {
     double threshold{};  // [1/m] thesis's form: colour gradient from which a particle is surface
 };
 
-// Direction q of the surface.
+// Stress S of the surface.
 template <int D, class Kernel>
-struct SurfaceDirectionPass {
+struct SurfaceStressPass {
     static constexpr bool kReadsWalls = true;
     static constexpr std::size_t kFluidFields = 0, kWallFields = 0;
 
@@ -26,6 +27,7 @@ struct SurfaceDirectionPass {
     struct Self {};
     struct Sums {
         std::array<Lanes, D> n{};
+        Lanes c{};
     };
 
     std::array<const double*, 0> fluid_fields() const { return {}; }
@@ -34,54 +36,55 @@ struct SurfaceDirectionPass {
 
     template <bool IsWall, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, Lanes>& pair, const Neighbour&, Sums& sums) const {
+        sums.c += pair.V_j * kernel.W(pair.r);
         add_to<D, Lanes>(sums.n, scaled<D, Lanes>(pair.V_j * kernel.F(pair.r), pair.x_ij));
     }
 
     HEADRACE_ALWAYS_INLINE void store(Index i, const Self&, const Sums& sums) const {
-        write_vector<D>(data.state.surface_direction, i, surface_direction<D>(sum_lanes(sums.n), options.flat.n));
+        write_matrix<D>(data.state.surface_stress, i,
+                        surface_stress<D>(sum_lanes(sums.n), sum_lanes(sums.c), options.flat.n));
     }
 };
 
-// Force of the directions' differences; walls have none.
-template <int D, class Kernel>
+// Force of the stress. A wall mirrors it: the surface goes on into the wall, at right angles.
+template <int D>
 struct ContinuumTensionPass {
     static constexpr bool kReadsWalls = true;
-    static constexpr std::size_t kFluidFields = D, kWallFields = 0;
+    static constexpr std::size_t kFluidFields = symmetric_size(D), kWallFields = 0;
 
-    Kernel kernel;
+    TensionKernel<D> kernel;
     PassData data;
     TensionOptions options;
 
-    struct Self {
-        std::array<double, D> q;
-    };
+    struct Self {};
     struct Sums {
-        std::array<Lanes, D> f{};
+        std::array<Lanes, D> grad_1{}, S_grad{};
     };
 
     std::array<const double*, kFluidFields> fluid_fields() const {
         std::array<const double*, kFluidFields> fields;
-        for (int k = 0; k < D; ++k) fields[k] = data.state.surface_direction[k].data();
+        for (std::size_t k = 0; k < kFluidFields; ++k) fields[k] = data.state.surface_stress[k].data();
         return fields;
     }
     std::array<const double*, 0> wall_fields() const { return {}; }
-    HEADRACE_ALWAYS_INLINE Self load(Index i) const { return {vector_at<D>(data.state.surface_direction, i)}; }
+    HEADRACE_ALWAYS_INLINE Self load(Index) const { return {}; }
 
     template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, Lanes>& pair, const Neighbour& neighbour,
+    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, Lanes>& pair, const Neighbour& neighbour,
                                      Sums& sums) const {
-        std::array<Lanes, D> q_ij;
-        if constexpr (IsWall) {
-            for (int k = 0; k < D; ++k) q_ij[k] = splat<Lanes>(self.q[k]);
-        } else {
-            q_ij = minus<D>(self.q, lanes_of<D>(neighbour, 0));
+        const std::array<Lanes, D> grad = scaled<D, Lanes>(pair.V_j * kernel.F(pair.r2), pair.x_ij);
+        add_to<D, Lanes>(sums.grad_1, IsWall ? scaled<D, Lanes>(splat<Lanes>(2.0), grad) : grad);
+        if constexpr (!IsWall) {
+            Symmetric<D, Lanes> S_j;
+            S_j.e = lanes_of<static_cast<int>(kFluidFields)>(neighbour, 0);
+            add_to<D, Lanes>(sums.S_grad, S_j * grad);
         }
-        accumulate_hessian<D, Lanes>(pair, kernel.F(pair.r), kernel.dF_dr(pair.r), q_ij, sums.f);
     }
 
     HEADRACE_ALWAYS_INLINE void store(Index i, const Self&, const Sums& sums) const {
-        const std::array<double, D> f = sum_lanes(sums.f);
-        const double factor = -2.0 * options.sigma / (options.flat.C * data.particles.rho[i]);
+        std::array<double, D> f = matrix_at<D>(data.state.surface_stress, i) * sum_lanes(sums.grad_1);
+        add_to<D, double>(f, sum_lanes(sums.S_grad));
+        const double factor = 2.0 * options.sigma / (options.flat.C * data.particles.rho[i]);
         for (int k = 0; k < D; ++k) data.state.a_slow[k][i] += factor * f[k];
     }
 };

@@ -82,6 +82,12 @@ class Wcsph final : public Model {
     }
 
     double h() const { return 0.5 * support_; }
+    // alpha h c0 rho0 [Pa s], less what the fluid's own viscosity does for it: alpha h c0 equals a kinematic viscosity
+    // alpha h c0/(2 (D + 2)).
+    double artificial_viscosity() const {
+        return std::max(
+            0.0, p_.artificial_viscosity * h() * c0_ * p_.rest_density - 2.0 * (dimensions_ + 2.0) * p_.viscosity);
+    }
     double cell_side() const { return support_ + kSkin * spacing_; }
     bool is_adjoint() const {
         return p_.pressure_gradient == PressureGradient::adjoint || p_.pressure_gradient == PressureGradient::plain ||
@@ -321,7 +327,7 @@ GeometryOptions Wcsph::geometry_options(bool shifts) const {
                                                   : 0.3;
     options.shifting = shifts;
     options.reconstructs =
-        p_.artificial_viscosity > 0.0 && p_.artificial_viscosity_form == ArtificialViscosity::reconstructed;
+        artificial_viscosity() > 0.0 && p_.artificial_viscosity_form == ArtificialViscosity::reconstructed;
     options.shift_factor = p_.shifting_factor * next_.dt * 2.0 * h();
     options.strain_length = kShiftStrainLength * h();
     options.W_dx = sums_->W(spacing_);
@@ -388,11 +394,11 @@ void Wcsph::compute_tension(Particles& particles) {
     const double ahead = 0.5 * next_.dt * (1.0 + 1.0 / next_.acoustic_steps);
     for (int k = 0; k < dimensions_; ++k) {
         tension_x_[k].resize(particles.size());
-        state_.surface_direction[k].resize(particles.size());
         parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
             for (std::size_t i = begin; i < end; ++i) tension_x_[k][i] = particles.x[k][i] + ahead * particles.v[k][i];
         });
     }
+    for (int k = 0; k < symmetric_size(dimensions_); ++k) state_.surface_stress[k].resize(particles.size());
     PairInput in = pair_input(particles, false);
     in.fluid.x = in.centres.x = &tension_x_;
     if (p_.tension_form == TensionForm::continuum) {
@@ -449,7 +455,7 @@ void Wcsph::compute_pressure_forces(Particles& particles) {
 
 PressureOptions Wcsph::pressure_options() const {
     PressureOptions options;
-    options.artificial_viscosity = p_.artificial_viscosity * h() * c0_ * p_.rest_density;
+    options.artificial_viscosity = artificial_viscosity();
     options.controls_tension = p_.tension_control && is_adjoint() && p_.free_surface;
     options.tension_eigenvalue = 0.9;
     return options;

@@ -95,7 +95,7 @@ TEST_CASE("ThesisParameters.TableAndMapListTheSameNames") {
 }
 
 TEST_CASE("Registry.KnowsTheThesisModel") {
-    CHECK(model_names() == std::vector<std::string>{"thesis"});
+    CHECK(model_names() == std::vector<std::string>{"thesis", "wcsph"});
     CHECK(make_model("thesis", 3, kThesisSpacing, {})->name() == "thesis");
     CHECK(model_parameter_table("thesis", 2, 0.01).size() == thesis_parameter_table(2, 0.01).size());
 }

@@ -55,6 +55,22 @@ TEST_CASE("WcsphLoads.ActionEqualsReaction") {
     }
 }
 
+TEST_CASE("WcsphLoads.ReachThroughPeriods") {
+    Scene scene = make_periodic_square(14, 0.2);
+    scene.domain.periodic[1] = false;
+    scene.domain.min[1] = -0.5;
+    scene.domain.max[1] = 1.5;
+    scene.objects = {{"floor", Role::obstacle, Plane{{0, 0, 0}, {0, 1, 0}}}};
+    set_random_state(scene.particles, 500.0, 9);
+    for (double& p : scene.particles.p) p += 1000.0;
+    scene.parameters["pressure_gradient"] = std::string("adjoint");
+    scene.start();
+    const ObjectLoad load = scene.model->object_loads(scene.particles, scene.surroundings())[0];
+    const VectorSum change = sum_over(scene.particles, scene.particles.a);
+    for (int k = 0; k < 2; ++k) CHECK(std::abs(change.sum[k] + load.force[k]) < kRoundOff * change.size);
+    CHECK(load.force[1] < -100.0);
+}
+
 TEST_CASE("WcsphLoads.TorqueIsReactionToo") {
     // Without gradient correction and viscosity fluid pairs are central: no torque of their own.
     const int dimensions = GENERATE(2, 3);
