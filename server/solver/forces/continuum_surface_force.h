@@ -12,9 +12,12 @@
 // W^t = N (1 - r^2/R^2)^3: under tension pairs clump where W'' > 0. Here that begins at 0.45 R, beyond the nearest
 // neighbours; with Wendland's kernels at 0.25 R and less.
 //
-// Cohesion s = 5 n_flat (c_0 - c) where c < c_0, else 0: the stress alone pushes a particle that sticks out of the
+// Cohesion s = n_flat (c_0 - c) where c < c_0, else 0: the stress alone pushes a particle that sticks out of the
 // surface still further, since the pull of its neighbours ends sooner than the pressure does. An isotropic stress
 // carries no tension: the pressure balances it.
+//
+// The stress is of the order of sigma/dx, far above sigma kappa: the fluid must be stiff enough for it, or its surface
+// never comes to rest (sound_speed.h).
 //
 // Not sigma kappa n at each particle: its sum over a drop is not 0. From kappa = -div n/|n| of reliable neighbours the
 // drop at rest is smoother, but its momentum grows, and an oscillating drop breaks up.
@@ -30,11 +33,11 @@
 namespace headrace::solver {
 
 // |n| as a share of a flat surface's, between which a particle begins to belong to the surface.
-inline constexpr double kNoSurface = 0.05, kFullSurface = 0.2;
+inline constexpr double kNoSurface = 0.1, kFullSurface = 0.4;
 
 // Cohesion begins below this colour: just above that of the outermost layer, half a spacing below a flat surface.
 inline constexpr double kCohesiveColour = 0.75;
-inline constexpr double kCohesion = 5.0;  // chosen: below 3 particles leave the surface of a drop at rest
+inline constexpr double kCohesion = 1.0;  // chosen: least noise of a drop at rest that began from jittered particles
 
 // g of s = |n|/n_flat: 0 below kNoSurface, 1 above kFullSurface, a smooth step between.
 inline double surface_weight(double s) {

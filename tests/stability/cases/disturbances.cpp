@@ -53,16 +53,16 @@ std::vector<Change> make_changes() {
         {"change_support",
          {number("support_over_spacing", 4.0), number("support_over_spacing", 2.4),
           number("support_over_spacing", 3.0)}},
-        {"change_numerics",
-         {word("pressure_gradient", "difference"),
-          word("pressure_gradient", "plain"),
-          word("pressure_gradient", "automatic"),
-          word("density_diffusion", "none"),
+        {"change_diffusion",
+         {word("density_diffusion", "none"),
           word("density_diffusion", "antuono"),
-          word("state_equation", "tait"),
-          word("state_equation", "linear"),
+          word("density_diffusion", "fourtakas"),
           {{"shifting", false}},
           {{"shifting", true}}}},
+        {"change_state_eq", {word("state_equation", "tait"), word("state_equation", "linear")}},
+        {"change_gradient",
+         {word("pressure_gradient", "difference"), word("pressure_gradient", "plain"),
+          word("pressure_gradient", "automatic")}},
         {"change_tension", {number("surface_tension", 1.0), number("surface_tension", 0.0)}},
     };
 }
@@ -73,6 +73,9 @@ void add_changes(std::vector<Scenario>& list) {
             Scenario one{change.name, "every " + std::to_string(every), half_full_box(), 1.0};
             one.most_steps = 1500;
             one.disturb = cycle(change.settings, every);
+            // The difference form gains energy at free surfaces; it is for confined flow. A sound speed that goes up
+            // and down fourfold within an acoustic period pumps energy into the fluid.
+            one.is_beyond_limits = one.name == "change_gradient" || (one.name == "change_sound" && every == 5);
             one.is_brief = every == 50;
             list.push_back(std::move(one));
         }

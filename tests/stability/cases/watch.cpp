@@ -201,7 +201,9 @@ void Watch::sample_density(const scene::Run& run) {
     const solver::Particles& particles = run.particles();
     double sum = 0.0;
     for (const double rho : particles.rho) sum += std::abs(rho / run.model().rest_density() - 1.0);
-    mean_density_ = std::max(mean_density_, sum / static_cast<double>(std::max<std::size_t>(particles.size(), 1)));
+    const double mean = sum / static_cast<double>(std::max<std::size_t>(particles.size(), 1));
+    if (!mean_then_) mean_then_ = mean;
+    mean_density_ = std::max(mean_density_, mean - *mean_then_);
     const double dx = run.scene().spacing;
     const double nearest = nearest_distance(particles, run.surroundings().domain, dx, 0.01);
     distance_ = std::max(distance_, 0.3 * dx / std::max(nearest, 1e-6 * dx));

@@ -8,13 +8,14 @@
 //   momentum      change beyond gravity's, in mass * largest speed; 0.02: pairs conserve it, shifting does not
 //   step          1e-3 first step / shortest step; 1
 //   density       largest |rho/rho0 - 1|; 0.3: three times the water hammer |v|/c0 = 0.1 of a flat impact
-//   mean_density  mean of the same; 0.05: half the water hammer
+//   mean_density  mean of the same beyond that of the start; 0.05: half the water hammer
 //   distance      0.3 spacing / 1 % quantile of the nearest distances inside the fluid; 1: the pressure force of a pair
 //                 is largest at a quarter of the support and has lost a third there
 //
 // Non-finite numbers are the model's own criterion, as is the domain.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tests/stability/cases/scenario.h"
@@ -48,6 +49,7 @@ class Watch {
     double largest_speed_{};            // [m/s]
     solver::Vec3 momentum_{};           // [kg m/s]
     double momentum_time_{};            // [s]
+    std::optional<double> mean_then_;   // [1] of |rho/rho0 - 1| when first judged
     double lost_{}, leak_{}, energy_{}, drift_{}, step_{}, density_{}, mean_density_{}, distance_{};
 };
 

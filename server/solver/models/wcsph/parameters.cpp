@@ -40,8 +40,8 @@ const NumberRow kNumbers[] = {
     {{"viscosity", "Pa s", "Dynamic viscosity mu; 0: an inviscid fluid."}, &P::viscosity},
     {{"surface_tension", "N/m", "Surface tension sigma; 0: none."}, &P::surface_tension},
     {{"sound_speed", "m/s",
-      "Numerical speed of sound c0; 0: the largest of 10 reference_speed, 10 sqrt(F L) and 10 sqrt(nu V/L), with the "
-      "body force F, the reference length L and speed V."},
+      "Numerical speed of sound c0; 0: the largest of 10 reference_speed, 10 sqrt(F L), 10 sqrt(nu V/L) and "
+      "10 sqrt(sigma/(rho0 dx)), with the body force F, the reference length L and speed V."},
      &P::sound_speed},
     {{"reference_speed", "m/s",
       "Largest speed expected; 0: the larger of the fastest particle or wall at the start and sqrt(2 |g| H), H the "

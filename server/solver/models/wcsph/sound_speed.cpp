@@ -40,7 +40,8 @@ double choose_sound_speed(const WcsphParameters& p, const Particles& particles, 
                          ? p.reference_speed
                          : std::max({largest_norm(particles.v, particles), wall_speed, std::sqrt(2.0 * g * height)});
     const double viscous = L > 0.0 ? p.viscosity / p.rest_density * V / (L * kCompression) : 0.0;
-    const double c0 = std::max({10.0 * V, std::sqrt(body * L / kCompression), std::sqrt(viscous)});
+    const double tension = p.surface_tension / (p.rest_density * spacing * kCompression);
+    const double c0 = std::max({10.0 * V, std::sqrt(body * L / kCompression), std::sqrt(viscous), std::sqrt(tension)});
     return c0 > 0.0 ? c0 : 1.0;  // nothing moves it: any speed will do
 }
 

@@ -1,0 +1,185 @@
+// The wcsph model's class, private to this folder: wcsph.h tells the method, wcsph.cpp starts it, wcsph_step.cpp steps,
+// wcsph_report.cpp tells about it.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/solver/eos.h"
+#include "server/solver/models/wcsph/energies.h"
+#include "server/solver/models/wcsph/health.h"
+#include "server/solver/models/wcsph/inspection.h"
+#include "server/solver/models/wcsph/loads.h"
+#include "server/solver/models/wcsph/parameters.h"
+#include "server/solver/models/wcsph/step_criteria.h"
+#include "server/solver/models/wcsph/sums.h"
+#include "server/solver/models/wcsph/wall_field.h"
+#include "server/solver/models/wcsph/wcsph.h"
+
+namespace headrace::solver {
+
+enum WcsphStage { kNeighbours, kGeometry, kSlow, kContinuity, kWalls, kPressure, kAdvance, kCheck, kStageCount };
+
+// Colour gradient times support from which the thesis's particles are surface: 7.065/m 0.0457 m.
+inline constexpr double kThesisThreshold = 0.3229;
+
+class Wcsph final : public Model {
+  public:
+    Wcsph(int dimensions, double spacing, const ParameterMap& overrides)
+        : dimensions_(dimensions),
+          spacing_(spacing),
+          table_(wcsph_parameter_table(dimensions, spacing)),
+          overrides_(overrides),
+          p_(make_wcsph_parameters(overrides)),
+          support_(p_.support_over_spacing * spacing),
+          walls_(dimensions, spacing, support_),
+          sums_(make_wcsph_sums(dimensions, p_.kernel, support_, best_isa())) {
+        set_flat_surface();
+    }
+
+    std::string_view name() const override { return "wcsph"; }
+
+    void relax(Particles& particles, const Surroundings& surroundings, const std::vector<bool>& spread) override;
+    void prepare(Particles& particles, const Surroundings& surroundings) override;
+    StepReport initialise(Particles& particles, const Surroundings& surroundings) override;
+    StepReport step(Particles& particles, const Surroundings& surroundings) override;
+
+    double time_step() const override { return next_.dt; }
+    std::string_view time_step_limit() const override { return next_.criterion; }
+    double hydrostatic_pressure(double weight) const override { return eos_.hydrostatic_pressure(weight); }
+    double particle_mass() const override { return p_.rest_density * std::pow(spacing_, dimensions_); }
+    double rest_density() const override { return p_.rest_density; }
+    double support_radius() const override { return support_; }
+    Vec3 gravity() const override { return p_.gravity; }
+    const std::vector<ParameterInfo>& parameter_table() const override { return table_; }
+    ParameterMap parameters() const override;
+    std::optional<ParameterError> set_parameters(const ParameterMap& values) override;
+    std::vector<Stage> plan(const Surroundings& surroundings) const override;
+    std::string walls_reason() const;
+    std::optional<std::string> refuse_object(const CollisionObject&) const override { return std::nullopt; }
+    std::optional<std::string> refuse_domain(const Domain& domain) const override;
+
+    std::vector<ObjectLoad> object_loads(const Particles& particles, const Surroundings& surroundings) const override;
+    void follow_energies(bool on) override { energies_.follow(on); }
+    std::optional<EnergyBudget> energies(const Particles& particles, const Surroundings& surroundings) const override;
+    std::optional<ParticleInspection> inspect(const Particles& particles, const Surroundings& surroundings,
+                                              Index id) const override;
+
+  private:
+    static constexpr double kSkin = 0.5;  // [spacings] by which cells are wider than the support
+
+    template <class Work>
+    void timed(WcsphStage stage, Work&& work) {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        seconds_[stage] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    double h() const { return 0.5 * support_; }
+    // alpha h c0 rho0 [Pa s], less what the fluid's own viscosity does for it: alpha h c0 equals a kinematic viscosity
+    // alpha h c0/(2 (D + 2)).
+    double artificial_viscosity() const {
+        return std::max(
+            0.0, p_.artificial_viscosity * h() * c0_ * p_.rest_density - 2.0 * (dimensions_ + 2.0) * p_.viscosity);
+    }
+    double cell_side() const { return support_ + kSkin * spacing_; }
+    bool is_adjoint() const {
+        return p_.pressure_gradient == PressureGradient::adjoint || p_.pressure_gradient == PressureGradient::plain ||
+               (p_.pressure_gradient == PressureGradient::automatic && p_.free_surface);
+    }
+    bool is_morris() const {
+        return p_.viscosity_form == ViscosityForm::morris ||
+               (p_.viscosity_form == ViscosityForm::automatic && !p_.free_surface);
+    }
+    double least_wall_pressure() const {
+        const bool clamps =
+            p_.wall_suction == WallSuction::clamped || (p_.wall_suction == WallSuction::automatic && p_.free_surface);
+        return clamps ? 0.0 : -std::numeric_limits<double>::infinity();
+    }
+    PassData data(Particles& particles) { return {particles, state_, walls_.particles(), walls_.state()}; }
+
+    WcsphView view(const Particles& particles) const { return {particles, state_, walls_.particles(), walls_.state()}; }
+    PressureOptions pressure_options() const;
+    ViscosityOptions viscosity_options() const { return {p_.viscosity, 0.25 * spacing_}; }
+    TensionOptions tension_options() const { return {p_.surface_tension, flat_surface_, kThesisThreshold / support_}; }
+    TermOptions term_options() const;
+    EnergySetting energy_setting(const Surroundings& surroundings) const {
+        return make_energy_setting(p_.gravity, surroundings.domain, p_.rest_density, eos_);
+    }
+    double stored_energy(const Particles& particles, const Surroundings& surroundings) const {
+        return compute_stored_energy(particles, state_.delta, energy_setting(surroundings)).total();
+    }
+    WallPower wall_power(const Particles& particles) const;
+    void start_energies(Particles& particles, const Surroundings& surroundings);
+    // What `work` changes in the stored energy counts as dissipated.
+    template <class Work>
+    void count_loss(const Particles& particles, const Surroundings& surroundings, Work&& work) {
+        const double before = energies_.is_on() ? stored_energy(particles, surroundings) : 0.0;
+        work();
+        if (energies_.is_on()) energies_.count_loss(before, stored_energy(particles, surroundings));
+    }
+
+    void set_flat_surface() {
+        const auto W = [this](double r) { return sums_->W(r); };
+        flat_surface_ = dimensions_ == 2 ? make_flat_surface<2>(W, support_) : make_flat_surface<3>(W, support_);
+    }
+    void set_state_equation();
+    void use_new_parameters(Particles& particles, const Surroundings& surroundings);
+    StepChoice limit_step(double dt_before) const;
+    RunLimits run_limits() const;
+    void resize_state(std::size_t count);
+    void sort_all(Particles& particles, const Surroundings& surroundings);
+    void wrap(Particles& particles, const Domain& domain) const;
+    void place_walls(const Surroundings& surroundings, double t, bool anew);
+    PairInput pair_input(const Particles& particles, bool centres_are_walls) const;
+    GeometryOptions geometry_options(bool shifts) const;
+    void compute_geometry(Particles& particles, bool shifts);
+    void apply_shift(Particles& particles, double share);
+    void compute_slow_forces(Particles& particles, const Surroundings& surroundings);
+    void compute_tension(Particles& particles);
+    void compute_state(Particles& particles, double dt, double drift);
+    void compute_pressure_forces(Particles& particles);
+    void compute_pressure(Particles& particles);
+    void kick_drift(Particles& particles, double kick, double drift);
+    void acoustic_step(Particles& particles, const Surroundings& surroundings, double t, double dt);
+    StepReport finish(Particles& particles, const Surroundings& surroundings, double dt);
+
+    int dimensions_;
+    double spacing_;  // [m]
+    std::vector<ParameterInfo> table_;
+    ParameterMap overrides_;
+    WcsphParameters p_;
+    double support_;  // R [m]
+    StateEquation eos_;
+    double c0_{};  // [m/s]
+
+    CellGrid grid_;
+    WallField walls_;
+    std::uint64_t objects_version_{~std::uint64_t{0}};
+    WcsphState state_;
+    Particles midpoint_;  // where the body force is evaluated; empty without one
+    std::unique_ptr<WcsphSums> sums_;
+    FlatSurface flat_surface_;  // under this kernel
+    VectorField tension_x_;     // [m] where surface tension is evaluated; empty without it
+    Vec3 period_{};             // [m]
+
+    double max_speed_{}, max_acceleration_{};  // [m/s], [m/s^2] at the end of the last step
+    bool has_new_parameters_{false};
+    bool has_new_stiffness_{false};  // among them what the sound speed's rule depends on
+    EnergyAccount energies_;
+    std::vector<std::string> object_names_;  // of the walls' objects
+    std::uint64_t step_{};
+    std::uint64_t put_back_{};   // particles put back on a wall's surface so far
+    std::uint64_t separated_{};  // coincident pairs, so far
+    double moved_{};             // [m] at most, since the last sort
+    StepChoice next_;
+    std::array<double, kStageCount> seconds_{};
+    std::vector<double> scratch_;
+    std::vector<Index> scratch_id_;
+};
+
+}  // namespace headrace::solver

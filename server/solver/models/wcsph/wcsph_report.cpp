@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "server/solver/models/wcsph/sound_speed.h"
+#include "server/solver/models/wcsph/wcsph_model.h"
+#include "server/solver/parallel.h"
+
+namespace headrace::solver {
+
+// ---- parameters, plan -----------------------------------------------------------------------------------------------
+
+// As set; the sound speed as it is, also where the rule has chosen it.
+ParameterMap Wcsph::parameters() const {
+    ParameterMap map = to_parameter_map(p_);
+    if (c0_ > 0.0) map["sound_speed"] = c0_;
+    return map;
+}
+
+std::optional<ParameterError> Wcsph::set_parameters(const ParameterMap& values) {
+    if (auto error = check_parameters(table_, values)) return error;
+    for (const auto& [key, value] : values) overrides_[key] = value;
+    has_new_parameters_ = true;
+    for (const char* name :
+         {"gravity", "viscosity", "rest_density", "sound_speed", "reference_speed", "reference_length"})
+        has_new_stiffness_ = has_new_stiffness_ || values.contains(name);
+    energies_.follow(energies_.is_on());  // another fluid: the account begins anew
+    p_ = make_wcsph_parameters(overrides_);
+    return std::nullopt;
+}
+
+// Particles keep their volume when the rest density changes: the pressure of still fluid grows with it. They keep their
+// pressure when the state equation changes: kept densities would put energy into the fluid with each stiffening.
+void Wcsph::use_new_parameters(Particles& particles, const Surroundings& surroundings) {
+    const double rest_density_before = eos_.rho0_c2 / (c0_ * c0_);
+    const double factor = p_.rest_density / rest_density_before;
+    if (std::abs(factor - 1.0) > 1e-12)
+        for (double& m : particles.m) m *= factor;
+    support_ = p_.support_over_spacing * spacing_;
+    sums_ = make_wcsph_sums(dimensions_, p_.kernel, support_, best_isa());
+    set_flat_surface();
+    walls_ = WallField(dimensions_, spacing_, support_);
+    place_walls(surroundings, surroundings.time, true);
+    const double c0_before = c0_;
+    // Only when what the rule depends on has changed: its speeds are those of now.
+    if (std::exchange(has_new_stiffness_, false)) c0_ = choose_sound_speed(p_, particles, spacing_, walls_.max_speed());
+    if (p_.sound_speed <= 0.0) c0_ = std::max(c0_, c0_before);  // the rule may stiffen a running fluid, never soften it
+    const StateEquation eos_before = eos_;
+    set_state_equation();
+    for (double& delta : state_.delta) delta = eos_.deviation(factor * eos_before.pressure(delta));
+    sort_all(particles, surroundings);
+    compute_state(particles, 0.0, 0.0);
+    next_ = limit_step(next_.dt);
+}
+
+std::optional<std::string> Wcsph::refuse_domain(const Domain& domain) const {
+    for (int k = 0; k < dimensions_; ++k) {
+        if (!domain.periodic[k] || fits_period(domain.max[k] - domain.min[k], cell_side())) continue;
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "the domain is periodic along axis %d but shorter than three cells of %.4g m; enlarge it or "
+                      "reduce the spacing",
+                      k, cell_side());
+        return text;
+    }
+    return std::nullopt;
+}
+
+std::string Wcsph::walls_reason() const {
+    if (walls_.is_empty()) return "no objects";
+    return "pressure and place of " + std::to_string(walls_.size()) + " wall particles; " + std::to_string(put_back_) +
+           " fluid particles put back on a surface so far";
+}
+
+std::vector<Stage> Wcsph::plan(const Surroundings&) const {
+    return {{"neighbours", true,
+             "cells, reused while nothing has moved out of them; " + std::to_string(separated_) +
+                 " coincident pairs moved apart so far",
+             seconds_[kNeighbours]},
+            {"geometry", true, "moment matrices, free surface, shift", seconds_[kGeometry]},
+            {"slow_forces", true, "gravity, body force, viscosity, tension", seconds_[kSlow]},
+            {"continuity", true, "density", seconds_[kContinuity]},
+            {"walls", !walls_.is_empty(), walls_reason(), seconds_[kWalls]},
+            {"pressure_force", true, "", seconds_[kPressure]},
+            {"advance", true, "kick, drift, state equation", seconds_[kAdvance]},
+            {"check", true, "", seconds_[kCheck]}};
+}
+
+// ---- what the model tells about itself ------------------------------------------------------------------------------
+
+TermOptions Wcsph::term_options() const {
+    return {is_adjoint(),
+            is_morris(),
+            pressure_options(),
+            viscosity_options(),
+            p_.tension_form == TensionForm::continuum,
+            tension_options()};
+}
+
+// By name: objects that came after the last step feel nothing yet.
+std::vector<ObjectLoad> Wcsph::object_loads(const Particles& particles, const Surroundings& surroundings) const {
+    std::vector<ObjectLoad> loads(surroundings.objects.size());
+    if (walls_.is_empty()) return loads;
+    const std::vector<WallForce> forces =
+        compute_wall_forces(pair_input(particles, true), view(particles), *sums_, term_options());
+    const std::vector<ObjectLoad> known = sum_object_loads(walls_.particles(), forces, object_names_.size());
+    for (std::size_t o = 0; o < loads.size(); ++o) {
+        const auto found = std::find(object_names_.begin(), object_names_.end(), surroundings.objects[o].name);
+        if (found != object_names_.end()) loads[o] = known[static_cast<std::size_t>(found - object_names_.begin())];
+    }
+    return loads;
+}
+
+// Walls at rest do no work: they are not asked.
+WallPower Wcsph::wall_power(const Particles& particles) const {
+    if (walls_.is_empty() || walls_.max_speed() == 0.0) return {};
+    return compute_wall_power(
+        walls_.particles(), compute_wall_forces(pair_input(particles, true), view(particles), *sums_, term_options()));
+}
+
+// The first kick still has the acceleration of the step before, which nobody has taken apart: its parts are taken to
+// be those of the present state.
+void Wcsph::start_energies(Particles& particles, const Surroundings& surroundings) {
+    const VectorField a = particles.a;
+    compute_pressure(particles);
+    particles.a = a;
+    energies_.start(stored_energy(particles, surroundings));
+}
+
+std::optional<EnergyBudget> Wcsph::energies(const Particles& particles, const Surroundings& surroundings) const {
+    return energies_.budget(compute_stored_energy(particles, state_.delta, energy_setting(surroundings)));
+}
+
+std::optional<ParticleInspection> Wcsph::inspect(const Particles& particles, const Surroundings& surroundings,
+                                                 Index id) const {
+    const WcsphView seen = view(particles);
+    const TermOptions options = term_options();
+    return inspect_particle(
+        {seen, *sums_, options, surroundings, object_names_, support_, p_.gravity, walls_.thin_walls()}, id);
+}
+
+}  // namespace headrace::solver

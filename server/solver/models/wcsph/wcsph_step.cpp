@@ -1,0 +1,331 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "server/solver/faults.h"
+#include "server/solver/models/wcsph/coincident.h"
+#include "server/solver/models/wcsph/sound_speed.h"
+#include "server/solver/models/wcsph/wcsph_model.h"
+#include "server/solver/parallel.h"
+
+namespace headrace::solver {
+
+// ---- neighbours and walls -------------------------------------------------------------------------------------------
+
+void Wcsph::wrap(Particles& particles, const Domain& domain) const {
+    for (int k = 0; k < dimensions_; ++k) {
+        if (!domain.periodic[k]) continue;
+        const double length = domain.max[k] - domain.min[k];
+        parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+            for (std::size_t i = begin; i < end; ++i) {
+                double& x = particles.x[k][i];
+                if (x >= domain.min[k] && x < domain.max[k]) continue;
+                x -= length * std::floor((x - domain.min[k]) / length);
+                if (!(x < domain.max[k])) x = domain.min[k];
+            }
+        });
+    }
+}
+
+void Wcsph::sort_all(Particles& particles, const Surroundings& surroundings) {
+    wrap(particles, surroundings.domain);
+    grid_.build(particles.x, particles.id, dimensions_, cell_side(), &surroundings.domain);
+    grid_.permute(particles.id, scratch_id_);
+    const auto permute = [&](std::vector<double>& field) { grid_.permute(field, scratch_); };
+    for (VectorField* field : {&particles.x, &particles.v, &particles.a, &state_.normal, &state_.grad_delta,
+                               &state_.a_slow, &state_.dx, &state_.dv})
+        for (int k = 0; k < dimensions_; ++k) permute((*field)[k]);
+    for (std::vector<double>* field : {&particles.m, &particles.rho, &particles.p, &state_.delta, &state_.V,
+                                       &state_.min_eigenvalue, &state_.delta_rate, &state_.ddelta})
+        permute(*field);
+    for (MatrixField* field : {&state_.B, &state_.pB, &state_.strain})
+        for (int k = 0; k < symmetric_size(dimensions_); ++k) permute((*field)[k]);
+    if (energies_.is_on()) energies_.permute(grid_, scratch_);
+    const std::uint64_t coincident = separate_coincident(particles, grid_, spacing_, step_);
+    moved_ = coincident > 0 ? kCoincidentWay * spacing_ : 0.0;
+    separated_ += coincident;
+}
+
+void Wcsph::place_walls(const Surroundings& surroundings, double t, bool anew) {
+    walls_.place(surroundings, t, anew, {cell_side(), p_.gravity, p_.wall_slip});
+    if (!anew) return;
+    objects_version_ = surroundings.objects_version;
+    object_names_.clear();
+    for (const CollisionObject& object : surroundings.objects) object_names_.push_back(object.name);
+}
+
+PairInput Wcsph::pair_input(const Particles& particles, bool centres_are_walls) const {
+    PairInput in;
+    in.fluid = {&grid_, &particles.x, state_.V.data()};
+    in.walls = walls_.points();
+    in.centres = centres_are_walls ? in.walls : in.fluid;
+    in.centres_are_walls = centres_are_walls;
+    in.period = period_;
+    in.support = support_;
+    in.thin_walls = walls_.thin_walls();
+    return in;
+}
+
+// ---- once per step --------------------------------------------------------------------------------------------------
+
+GeometryOptions Wcsph::geometry_options(bool shifts) const {
+    GeometryOptions options;
+    options.correction_threshold = p_.pressure_gradient == PressureGradient::plain
+                                       ? std::numeric_limits<double>::infinity()
+                                   : is_adjoint() ? p_.correction_threshold
+                                                  : 0.3;
+    options.shifting = shifts;
+    options.reconstructs =
+        artificial_viscosity() > 0.0 && p_.artificial_viscosity_form == ArtificialViscosity::reconstructed;
+    options.shift_factor = p_.shifting_factor * next_.dt * 2.0 * h();
+    options.strain_length = kShiftStrainLength * h();
+    options.W_dx = sums_->W(spacing_);
+    options.dynamic_pressure = p_.rest_density * max_speed_ * max_speed_;
+    options.noise = kShiftNoise * next_.dt;
+    options.limits.longest = p_.shifting_limit * spacing_;
+    if (!p_.free_surface) options.limits.surface_eigenvalue = options.limits.spray_eigenvalue = -1.0;
+    return options;
+}
+
+void Wcsph::compute_geometry(Particles& particles, bool shifts) {
+    GeometryOptions options = geometry_options(shifts);
+    options.step = ++step_;
+    sums_->geometry(pair_input(particles, false), data(particles), options);
+}
+
+// A share of the step's shift, and what it carries along.
+void Wcsph::apply_shift(Particles& particles, double share) {
+    parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+        for (int k = 0; k < dimensions_; ++k) {
+            for (std::size_t i = begin; i < end; ++i) {
+                particles.x[k][i] += share * state_.dx[k][i];
+                particles.v[k][i] += share * state_.dv[k][i];
+            }
+        }
+        for (std::size_t i = begin; i < end; ++i) state_.delta[i] += share * state_.ddelta[i];
+    });
+    moved_ += share * p_.shifting_limit * spacing_;
+}
+
+void Wcsph::compute_slow_forces(Particles& particles, const Surroundings& surroundings) {
+    for (int k = 0; k < dimensions_; ++k) std::fill(state_.a_slow[k].begin(), state_.a_slow[k].end(), p_.gravity[k]);
+    if (surroundings.body_force != nullptr) {
+        // At the middle of the step: held at its start, a spring would gain energy.
+        const double half = 0.5 * next_.dt;
+        midpoint_.dimensions = dimensions_;
+        midpoint_.resize(particles.size());
+        for (int k = 0; k < dimensions_; ++k) {
+            parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    midpoint_.v[k][i] = particles.v[k][i];
+                    midpoint_.x[k][i] = particles.x[k][i] + half * particles.v[k][i];
+                }
+            });
+        }
+        (*surroundings.body_force)(surroundings.time + half, midpoint_, state_.a_slow);
+    }
+    if (energies_.is_on()) energies_.note_body_force(state_.a_slow, energy_setting(surroundings), dimensions_);
+    if (p_.viscosity > 0.0) {
+        sums_->viscosity(pair_input(particles, false), data(particles), is_morris(), viscosity_options());
+        if (energies_.is_on()) {
+            energies_.note_viscosity(state_.a_slow, dimensions_);
+            energies_.note_wall_viscosity(wall_power(particles).viscosity);
+        }
+    }
+    if (p_.surface_tension > 0.0) {
+        compute_tension(particles);
+        if (energies_.is_on()) energies_.note_tension(state_.a_slow, dimensions_);
+    }
+}
+
+// On the positions that the step's force stands for: held at its start, the short capillary waves would gain energy.
+void Wcsph::compute_tension(Particles& particles) {
+    const double ahead = 0.5 * next_.dt * (1.0 + 1.0 / next_.acoustic_steps);
+    for (int k = 0; k < dimensions_; ++k) {
+        tension_x_[k].resize(particles.size());
+        parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+            for (std::size_t i = begin; i < end; ++i) tension_x_[k][i] = particles.x[k][i] + ahead * particles.v[k][i];
+        });
+    }
+    for (int k = 0; k < symmetric_size(dimensions_); ++k) state_.surface_stress[k].resize(particles.size());
+    PairInput in = pair_input(particles, false);
+    in.fluid.x = in.centres.x = &tension_x_;
+    if (p_.tension_form == TensionForm::continuum) {
+        sums_->continuum_tension(in, data(particles), tension_options());
+    } else {
+        sums_->thesis_tension(in, data(particles), tension_options());
+    }
+}
+
+// ---- acoustic steps -------------------------------------------------------------------------------------------------
+
+void Wcsph::kick_drift(Particles& particles, double kick, double drift) {
+    parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+        for (int k = 0; k < dimensions_; ++k) {
+            double *v = particles.v[k].data(), *x = particles.x[k].data();
+            const double* a = particles.a[k].data();
+            for (std::size_t i = begin; i < end; ++i) {
+                v[i] += kick * a[i];
+                x[i] += drift * v[i];
+            }
+        }
+    });
+}
+
+// delta += dt rate, x += drift v; then everything that follows from delta.
+void Wcsph::compute_state(Particles& particles, double dt, double drift) {
+    const int components = symmetric_size(dimensions_);
+    parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+        for (int k = 0; k < dimensions_; ++k) {
+            for (std::size_t i = begin; i < end; ++i) particles.x[k][i] += drift * particles.v[k][i];
+        }
+        for (std::size_t i = begin; i < end; ++i) {
+            const double delta = state_.delta[i] += dt * state_.delta_rate[i];
+            particles.rho[i] = p_.rest_density * (1.0 + delta);
+            particles.p[i] = eos_.pressure(delta);
+            state_.V[i] = particles.m[i] / particles.rho[i];
+        }
+        for (int c = 0; c < components; ++c) {
+            for (std::size_t i = begin; i < end; ++i) state_.pB[c][i] = particles.p[i] * state_.B[c][i];
+        }
+    });
+}
+
+void Wcsph::compute_pressure_forces(Particles& particles) {
+    compute_state(particles, 0.0, 0.0);
+    if (!walls_.is_empty()) {
+        timed(kWalls, [&] {
+            sums_->wall_pressure(pair_input(particles, true), data(particles),
+                                 {least_wall_pressure(), p_.rest_density * c0_ * c0_});
+        });
+    }
+    timed(kPressure, [&] { compute_pressure(particles); });
+}
+
+PressureOptions Wcsph::pressure_options() const {
+    PressureOptions options;
+    options.artificial_viscosity = artificial_viscosity();
+    options.controls_tension = p_.tension_control && is_adjoint() && p_.free_surface;
+    options.tension_eigenvalue = 0.9;
+    return options;
+}
+
+void Wcsph::compute_pressure(Particles& particles) {
+    const PressureOptions options = pressure_options();
+    const PairInput in = pair_input(particles, false);
+    const bool separates = energies_.is_on() && options.artificial_viscosity != 0.0;
+    if (separates) {
+        PressureOptions without = options;
+        without.artificial_viscosity = 0.0;
+        sums_->pressure(in, data(particles), is_adjoint(), without);
+        energies_.note_without_artificial(particles.a);
+    }
+    sums_->pressure(in, data(particles), is_adjoint(), options);
+    if (separates) energies_.note_with_artificial(particles.a, dimensions_);
+    if (energies_.is_on()) energies_.note_wall_pressure(wall_power(particles).pressure);
+}
+
+void Wcsph::acoustic_step(Particles& particles, const Surroundings& surroundings, double t, double dt) {
+    const double reach = 1.5 * dt * std::max(max_speed_ + max_acceleration_ * dt, 1e-300);
+    if (2.0 * (moved_ + reach) > kSkin * spacing_) timed(kNeighbours, [&] { sort_all(particles, surroundings); });
+    moved_ += reach;
+    if (energies_.is_on()) energies_.count_kick(particles, 0.5 * dt);
+    timed(kAdvance, [&] { kick_drift(particles, 0.5 * dt, 0.5 * dt); });
+    if (walls_.has_moving()) timed(kWalls, [&] { place_walls(surroundings, t + 0.5 * dt, false); });
+    timed(kContinuity, [&] {
+        ContinuityOptions options;
+        options.diffusion = p_.density_diffusion_factor * h() * c0_;
+        if (p_.density_diffusion == DensityDiffusion::fourtakas)
+            for (int k = 0; k < 3; ++k) options.g_over_c2[k] = p_.gravity[k] / (c0_ * c0_);
+        const PairInput in = pair_input(particles, false);
+        if (energies_.is_on()) {
+            sums_->continuity(in, data(particles), DensityDiffusion::none, options);
+            energies_.note_without_diffusion(state_.delta_rate);
+        }
+        sums_->continuity(in, data(particles), p_.density_diffusion, options);
+    });
+    timed(kAdvance, [&] { compute_state(particles, dt, 0.5 * dt); });
+    if (energies_.is_on()) energies_.count_diffusion(particles, state_, energy_setting(surroundings), dt);
+    if (walls_.has_moving()) timed(kWalls, [&] { place_walls(surroundings, t + dt, false); });
+    compute_pressure_forces(particles);
+    if (energies_.is_on()) energies_.count_kick(particles, 0.5 * dt);
+    timed(kAdvance, [&] { kick_drift(particles, 0.5 * dt, 0.0); });
+}
+
+StepReport Wcsph::step(Particles& particles, const Surroundings& surroundings) {
+    if (std::exchange(has_new_parameters_, false)) use_new_parameters(particles, surroundings);
+    if (objects_version_ != surroundings.objects_version) place_walls(surroundings, surroundings.time, true);
+    const double dt = next_.dt, t = surroundings.time;
+    if (2.0 * (moved_ + p_.shifting_limit * spacing_) > kSkin * spacing_)
+        timed(kNeighbours, [&] { sort_all(particles, surroundings); });
+    const bool shifts = p_.shifting && max_speed_ > 0.0;
+    timed(kGeometry, [&] { compute_geometry(particles, shifts); });
+    timed(kSlow, [&] { compute_slow_forces(particles, surroundings); });
+    if (energies_.is_on() && !energies_.has_started()) start_energies(particles, surroundings);
+    const double part = dt / next_.acoustic_steps;
+    for (int k = 0; k < next_.acoustic_steps; ++k) {
+        acoustic_step(particles, surroundings, t + k * part, part);
+        if (!shifts) continue;
+        timed(kAdvance, [&] {
+            count_loss(particles, surroundings, [&] { apply_shift(particles, 1.0 / next_.acoustic_steps); });
+        });
+    }
+    timed(kWalls, [&] {
+        std::uint64_t count = 0;
+        count_loss(particles, surroundings, [&] { count = walls_.hold(particles, grid_, dt); });
+        put_back_ += count;
+        if (count > 0) moved_ += kSkin * spacing_;  // further than the drift tells: sort before the next step
+    });
+    return finish(particles, surroundings, dt);
+}
+
+// The next step by the criteria, growing by 10 % at most: a sudden end of all forces is rarely the truth.
+StepChoice Wcsph::limit_step(double dt_before) const {
+    constexpr double kGrowth = 1.1;
+    StepChoice choice = choose_step({h(), c0_, max_speed_, max_acceleration_, p_.viscosity / p_.rest_density,
+                                     p_.surface_tension / p_.rest_density, p_.cfl, p_.advective_cfl,
+                                     p_.dual_time_step ? static_cast<int>(p_.most_acoustic_steps) : 1});
+    const double acoustic = choice.dt / choice.acoustic_steps;
+    if (p_.time_step > 0.0) {
+        choice = {p_.time_step, 1, "fixed"};
+    } else if (dt_before > 0.0 && choice.dt > kGrowth * dt_before) {
+        choice.dt = kGrowth * dt_before;
+    } else {
+        return choice;
+    }
+    choice.acoustic_steps = p_.dual_time_step ? std::max(1, static_cast<int>(std::ceil(choice.dt / acoustic))) : 1;
+    return choice;
+}
+
+RunLimits Wcsph::run_limits() const {
+    return {c0_,    p_.cfl * h() / c0_,    next_.dt,     next_.criterion,
+            p_.cfl, WcsphParameters{}.cfl, p_.time_step, p_.sound_speed == 0.0};
+}
+
+// Speeds, the next step's length, what went wrong.
+StepReport Wcsph::finish(Particles& particles, const Surroundings& surroundings, double dt) {
+    StepReport report;
+    timed(kCheck, [&] {
+        Domain room = surroundings.domain;
+        for (int k = 0; k < 3; ++k) {
+            if (!room.periodic[k]) continue;  // where a particle may be outside until it is wrapped
+            room.min[k] = -std::numeric_limits<double>::infinity();
+            room.max[k] = std::numeric_limits<double>::infinity();
+        }
+        Inspection found = solver::inspect(particles, room);
+        max_speed_ = found.max_speed;
+        const Extremes extremes = find_extremes(particles, state_.delta);
+        max_acceleration_ = extremes.max_acceleration;
+        next_ = limit_step(dt > 0.0 ? next_.dt : 0.0);
+        report = {dt, found.max_speed, std::move(found.fault)};
+        if (report.fault)
+            report.fault->remedy = remedy_for(report.fault->kind, run_limits());
+        else
+            report.fault = check_health(particles, extremes, run_limits());
+    });
+    return report;
+}
+
+}  // namespace headrace::solver
