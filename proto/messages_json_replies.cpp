@@ -81,7 +81,8 @@ void describe(Visitor& v, PlanStage& m) {
 }
 
 void describe(Visitor& v, FaultReport& m) {
-    v.required("criterion", m.criterion, {.meaning = "what was violated: non_finite, left_domain, density, speed, time_step or internal_error"});
+    v.required("criterion", m.criterion,
+               {.meaning = "what was violated: non_finite, left_domain, density, speed, time_step or internal_error"});
     v.required("particle", m.particle, {.meaning = "id of the particle"});
     v.required("position", m.position, {.meaning = "last known position", .unit = "m", .may_be_non_finite = true});
     v.required("velocity", m.velocity, {.meaning = "last known velocity", .unit = "m/s", .may_be_non_finite = true});

@@ -17,10 +17,10 @@ double speed_squared(const Particles& particles, std::size_t i) {
 }
 
 struct Sums {
-    double max_speed2{};            // [m^2/s^2]
-    double m_speed2{};              // [J] sum of m v^2
-    double m_g_x{};                 // [J] sum of m g.x
-    double rho{}, max_rho{};        // [kg/m^3]
+    double max_speed2{};      // [m^2/s^2]
+    double m_speed2{};        // [J] sum of m v^2
+    double m_g_x{};           // [J] sum of m g.x
+    double rho{}, max_rho{};  // [kg/m^3]
 };
 
 }  // namespace
@@ -34,7 +34,8 @@ Diagnostics compute_diagnostics(const Particles& particles, const Vec3& gravity)
                 const double speed2 = speed_squared(particles, i);
                 block.max_speed2 = std::max(block.max_speed2, speed2);
                 block.m_speed2 += particles.m[i] * speed2;
-                for (int k = 0; k < particles.dimensions; ++k) block.m_g_x += particles.m[i] * gravity[k] * particles.x[k][i];
+                for (int k = 0; k < particles.dimensions; ++k)
+                    block.m_g_x += particles.m[i] * gravity[k] * particles.x[k][i];
                 block.rho += particles.rho[i];
                 block.max_rho = std::max(block.max_rho, particles.rho[i]);
             }
@@ -45,8 +46,7 @@ Diagnostics compute_diagnostics(const Particles& particles, const Vec3& gravity)
                         std::max(a.max_rho, b.max_rho)};
         });
     const double count = static_cast<double>(std::max<std::size_t>(particles.size(), 1));
-    return {std::sqrt(sums.max_speed2), 0.5 * sums.m_speed2, -sums.m_g_x, sums.rho / count,
-            sums.max_rho};
+    return {std::sqrt(sums.max_speed2), 0.5 * sums.m_speed2, -sums.m_g_x, sums.rho / count, sums.max_rho};
 }
 
 double compute_slow_share(const Particles& particles, double speed) {

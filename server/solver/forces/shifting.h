@@ -24,8 +24,8 @@ inline constexpr double kClumpWeight = 0.2;  // R; the power n is 4
 // (Taylor-Green from a lattice: without it particles line up and the run ends).
 inline constexpr double kShiftNoise = 0.05;
 
-// U = 10 h |grad v|: what the flow does to the particles' order is its velocity gradient's work, not its speed's; a body
-// of fluid that falls or is carried along needs no shifting.
+// U = 10 h |grad v|: what the flow does to the particles' order is its velocity gradient's work, not its speed's; a
+// body of fluid that falls or is carried along needs no shifting.
 inline constexpr double kShiftStrainLength = 10.0;
 
 // (1 + R (W/W(dx))^4) V_j F, to be multiplied by x_ij.

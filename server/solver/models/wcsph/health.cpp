@@ -63,7 +63,8 @@ std::string stiffness_advice(const RunLimits& limits) {
 
 }  // namespace
 
-Extremes find_extremes(const Particles& particles, const std::vector<double>& delta) {
+Extremes find_extremes(const Particles& particles, const std::vector<double>& delta,
+                       const std::vector<double>& min_eigenvalue) {
     const int dimensions = particles.dimensions;
     const Found found = parallel_reduce(
         particles.size(), Found{},
@@ -73,7 +74,10 @@ Extremes find_extremes(const Particles& particles, const std::vector<double>& de
                 block.acceleration2.take(square_of(particles.a, dimensions, i), i);
                 block.speed2.take(square_of(particles.v, dimensions, i), i);
                 const double deviation = std::abs(delta[i]);
-                block.deviation.take(std::isnan(deviation) ? std::numeric_limits<double>::infinity() : deviation, i);
+                if (!std::isfinite(deviation))
+                    block.deviation.take(std::numeric_limits<double>::infinity(), i);
+                else if (min_eigenvalue[i] >= kSprayEigenvalue)
+                    block.deviation.take(deviation, i);
             }
             return block;
         },

@@ -80,7 +80,10 @@ std::vector<Stage> Wcsph::plan(const Surroundings&) const {
                  " coincident pairs moved apart so far",
              seconds_[kNeighbours]},
             {"geometry", true, "moment matrices, free surface, shift", seconds_[kGeometry]},
-            {"slow_forces", true, "gravity, body force, viscosity, tension", seconds_[kSlow]},
+            {"slow_forces", true,
+             p_.surface_tension > 0.0 ? "gravity, body force, viscosity, surface tension"
+                                      : "gravity, body force, viscosity; no surface tension: the coefficient is 0",
+             seconds_[kSlow]},
             {"continuity", true, "density", seconds_[kContinuity]},
             {"walls", !walls_.is_empty(), walls_reason(), seconds_[kWalls]},
             {"pressure_force", true, "", seconds_[kPressure]},

@@ -316,7 +316,7 @@ StepReport Wcsph::finish(Particles& particles, const Surroundings& surroundings,
         }
         Inspection found = solver::inspect(particles, room);
         max_speed_ = found.max_speed;
-        const Extremes extremes = find_extremes(particles, state_.delta);
+        const Extremes extremes = find_extremes(particles, state_.delta, state_.min_eigenvalue);
         max_acceleration_ = extremes.max_acceleration;
         next_ = limit_step(dt > 0.0 ? next_.dt : 0.0);
         report = {dt, found.max_speed, std::move(found.fault)};
