@@ -95,6 +95,7 @@ void add_jumps(std::vector<Scenario>& list) {
             must(run.move_object("piston", {}, proto::Vec3{0.0, way, 0.0}));
             return true;
         };
+        one.is_beyond_limits = jump > 1.0;  // fluid in its way is put on its surface, many particles in one place
         one.is_brief = jump == 1.0;
         list.push_back(std::move(one));
     }
@@ -112,6 +113,7 @@ void add_paddles(std::vector<Scenario>& list) {
             {proto::BoxDesc{{0.0, 0.0, 0.0}, {0.3, 0.2, 0.0}}, proto::BoxDesc{{0.13, 0.04, 0.0}, {0.17, 0.26, 0.0}}}};
         one.has_moving_walls = true;
         one.duration = 0.5;
+        one.is_beyond_limits = speed > 1.0;  // it throws spray at more than half the speed of sound
         one.is_brief = speed == 0.5;
         list.push_back(std::move(one));
     }
@@ -148,7 +150,7 @@ void add_visitors(std::vector<Scenario>& list) {
                 must(run.remove_object("visitor"));
             return true;
         };
-        one.is_brief = true;
+        one.is_brief = std::string(name) == "sphere";
         list.push_back(std::move(one));
     }
     // The box that holds the water goes; a larger one comes.

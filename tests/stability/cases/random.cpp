@@ -76,7 +76,7 @@ std::vector<Scenario> random_scenarios() {
     for (unsigned seed = 0; seed < 100; ++seed) {
         Scenario one{"random_" + std::to_string(seed / 10) + "x", "seed " + std::to_string(seed), random_scene(seed),
                      0.4};
-        one.is_brief = seed % 10 == 3;
+        one.is_brief = seed % 10 == 1 && seed != 11;  // that one has many pairs at thin panels
         list.push_back(std::move(one));
     }
     return list;

@@ -39,7 +39,7 @@ std::vector<Scenario> rest_scenarios() {
             if (dimensions == 3 && no_slip) continue;
             Scenario one{"rest", std::string(dimensions == 2 ? "2D" : "3D") + (no_slip ? " no slip" : " free slip"),
                          make_scene(dimensions, kDx, 1.0)};
-            const double side = dimensions == 2 ? 12 * kDx : 6 * kDx, depth = dimensions == 2 ? 0.0 : side;
+            const double side = dimensions == 2 ? 12 * kDx : 4 * kDx, depth = dimensions == 2 ? 0.0 : side;
             one.scene.fluids.push_back(make_pool({0.0, 0.0, 0.0}, {side, side, depth}));
             one.scene.objects.push_back(make_container({0.0, 0.0, 0.0}, {side, 0.5, depth}));
             one.scene.parameters["wall_slip"] = std::string(no_slip ? "no_slip" : "free_slip");

@@ -90,7 +90,13 @@ std::string describe(const Outcome& outcome) {
     std::snprintf(text, sizeof text, "%-20s %-14s %-8s N=%-6zu steps=%-7zu t=%-8.3g %6.2f s  worst %s %.3g of %.3g",
                   outcome.name.c_str(), outcome.variant.c_str(), name_of(outcome.verdict), outcome.particles,
                   outcome.steps, outcome.simulated, outcome.wall, worst.name, worst.value, worst.bound);
-    return outcome.fault.empty() ? text : std::string(text) + "\n    " + outcome.fault;
+    std::string line = text;
+    for (const Criterion& one : outcome.criteria) {
+        if (&one == &worst || !(one.margin() > 1.0)) continue;
+        std::snprintf(text, sizeof text, ", %s %.3g of %.3g", one.name, one.value, one.bound);
+        line += text;
+    }
+    return outcome.fault.empty() ? line : line + "\n    " + outcome.fault;
 }
 
 const std::vector<Scenario>& scenarios() {

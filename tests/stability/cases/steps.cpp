@@ -37,6 +37,13 @@ proto::SceneDesc syrup() {
     return scene;
 }
 
+// The same criterion with the form of viscosity for free surfaces.
+proto::SceneDesc still_syrup() {
+    proto::SceneDesc scene = still_water();
+    scene.parameters["viscosity"] = 100.0;
+    return scene;
+}
+
 // Vortices of high Reynolds number: the advective criterion and shifting.
 proto::SceneDesc vortices() {
     proto::SceneDesc scene = syrup();
@@ -70,6 +77,7 @@ std::vector<Scenario> step_scenarios() {
         {"step_single", dam_break(), 0.8, false, false},
         {"step_still", still_water(), 1.5, false, true},
         {"step_viscous", syrup(), 0.5, true, true},
+        {"step_viscous_free", still_syrup(), 0.2, false, true},
         {"step_vortices", vortices(), 2.0, true, true},
         {"step_tension", drop_in_capillary_waves(), 0.02, true, true},
     };

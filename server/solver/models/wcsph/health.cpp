@@ -63,8 +63,7 @@ std::string stiffness_advice(const RunLimits& limits) {
 
 }  // namespace
 
-Extremes find_extremes(const Particles& particles, const std::vector<double>& delta,
-                       const std::vector<double>& min_eigenvalue) {
+Extremes find_extremes(const Particles& particles, const std::vector<double>& delta) {
     const int dimensions = particles.dimensions;
     const Found found = parallel_reduce(
         particles.size(), Found{},
@@ -74,10 +73,7 @@ Extremes find_extremes(const Particles& particles, const std::vector<double>& de
                 block.acceleration2.take(square_of(particles.a, dimensions, i), i);
                 block.speed2.take(square_of(particles.v, dimensions, i), i);
                 const double deviation = std::abs(delta[i]);
-                if (!std::isfinite(deviation))
-                    block.deviation.take(std::numeric_limits<double>::infinity(), i);
-                else if (min_eigenvalue[i] >= kSprayEigenvalue)
-                    block.deviation.take(deviation, i);
+                block.deviation.take(std::isnan(deviation) ? std::numeric_limits<double>::infinity() : deviation, i);
             }
             return block;
         },

@@ -1,8 +1,10 @@
 // Is the state of a wcsph run still a result? Stops a run before garbage spreads, names the particle and what helps.
 //
-//   density    |delta| > 0.5      but in spray: the fluid is meant to vary by 1 %; here the particles' volumes no
-//   longer fill space speed      |v| > 2 c0         pressure can no longer answer: c0 is meant to be ten times the
-//   largest speed time_step  dt < 1e-3 cfl h/c0 forces 10^5 times those of a violent impact leave nothing to simulate
+//   density: |delta| > 0.5. The fluid is meant to vary by 1 %; here the particles' volumes no longer fill space.
+//
+//   speed: |v| > 2 c0. Pressure can no longer answer: c0 is meant to be ten times the largest speed.
+//
+//   time_step: dt < 1e-3 cfl h/c0. Forces 10^5 times those of a violent impact leave nothing to simulate.
 //
 // For comparison: the water hammer of a flat impact is delta = |v|/c0, 0.1 where c0 is ten times the speed.
 #pragma once
@@ -17,10 +19,9 @@
 
 namespace headrace::solver {
 
-inline constexpr double kMostDeviation = 0.5;     // [1]
-inline constexpr double kSprayEigenvalue = 0.45;  // [1] of the moment matrix; below: spray, as for shifting
-inline constexpr double kMostMach = 2.0;          // [1]
-inline constexpr double kLeastStep = 1e-3;        // [1] of the acoustic step at rest
+inline constexpr double kMostDeviation = 0.5;  // [1]
+inline constexpr double kMostMach = 2.0;       // [1]
+inline constexpr double kLeastStep = 1e-3;     // [1] of the acoustic step at rest
 
 struct Extremes {
     double max_acceleration{};  // [m/s^2] of the finite ones
@@ -29,10 +30,7 @@ struct Extremes {
     std::size_t most_deviating{};
     std::size_t fastest{};
 };
-// min_eigenvalue: of the moment matrices. The density of spray counts only where it is not a number: of a particle
-// alone at a wall it says nothing.
-Extremes find_extremes(const Particles& particles, const std::vector<double>& delta,
-                       const std::vector<double>& min_eigenvalue);
+Extremes find_extremes(const Particles& particles, const std::vector<double>& delta);
 
 // What the criteria and the remedies need to know of the run.
 struct RunLimits {

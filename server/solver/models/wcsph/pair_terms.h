@@ -52,6 +52,7 @@ class PairTerms {
     Vector wall_pressure(Index i, Index w, const Pair<D, double>& pair, double F) const {
         PressureSums<D, double> sums;
         accumulate_difference<D, double>(scaled<D, double>(pair.V_j * F, pair.x_ij), view_.wall_state.p[w], sums);
+        if (is_controlled(i) && !options_.pressure.walls_suck) sums.grad_1 = {};
         return pressure_acceleration(i, sums);
     }
 
@@ -101,9 +102,12 @@ class PairTerms {
     Vector pressure_acceleration(Index i, const PressureSums<D, double>& sums) const {
         const double p = view_.particles.p[i], rho = view_.particles.rho[i];
         if (!options_.is_adjoint) return difference_acceleration<D>(sums, p, matrix_at<D>(view_.state.B, i), rho);
-        const bool is_controlled = options_.pressure.controls_tension && p < 0.0 &&
-                                   view_.state.min_eigenvalue[i] > options_.pressure.tension_eigenvalue;
-        return adjoint_acceleration<D>(sums, matrix_at<D>(view_.state.pB, i), is_controlled ? -1.0 : 1.0, rho);
+        return adjoint_acceleration<D>(sums, matrix_at<D>(view_.state.pB, i), is_controlled(i) ? -1.0 : 1.0, rho);
+    }
+
+    bool is_controlled(Index i) const {
+        return options_.is_adjoint && options_.pressure.controls_tension && view_.particles.p[i] < 0.0 &&
+               view_.state.min_eigenvalue[i] > options_.pressure.tension_eigenvalue;
     }
 
     const WcsphView& view_;

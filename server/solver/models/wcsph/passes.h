@@ -296,7 +296,7 @@ struct PressureOptions {
     double artificial_viscosity{};  // alpha h c0 rho0 [Pa s]
     bool controls_tension{};
     double tension_eigenvalue{};  // tension is controlled where the smallest eigenvalue exceeds this
-    double wall_p_min{};          // [Pa] walls do not suck below this; -infinity: they may
+    bool walls_suck{};            // may their pressure be negative?
 };
 
 template <int D, class Kernel, bool IsAdjoint, bool HasAlpha>
@@ -370,13 +370,15 @@ struct PressurePass {
         PressureSums<D, double> total{sum_lanes(sums.fluid.grad_1), sum_lanes(sums.fluid.pB_grad)};
         const std::array<double, D> wall_1 = sum_lanes(sums.walls.grad_1), wall_p = sum_lanes(sums.walls.pB_grad);
         const Symmetric<D> B = matrix_at<D>(data.state.B, i);
-        add_to<D, double>(total.grad_1, wall_1);
+        const bool is_controlled = IsAdjoint && options.controls_tension && self.p < 0.0 &&
+                                   data.state.min_eigenvalue[i] > options.tension_eigenvalue;
+        // Where walls do not suck, controlled tension would push the particle off the wall, the more the further it
+        // goes: it ends at the fluid.
+        if (!is_controlled || options.walls_suck) add_to<D, double>(total.grad_1, wall_1);
         // A wall particle has B = 1: with the fluid particle's, walls would feed energy into still water.
         add_to<D, double>(total.pB_grad, wall_p);
         std::array<double, D> a;
         if constexpr (IsAdjoint) {
-            const bool is_controlled =
-                options.controls_tension && self.p < 0.0 && data.state.min_eigenvalue[i] > options.tension_eigenvalue;
             a = adjoint_acceleration<D>(total, matrix_at<D>(data.state.pB, i), is_controlled ? -1.0 : 1.0, self.rho);
         } else {
             a = difference_acceleration<D>(total, self.p, B, self.rho);

@@ -2,7 +2,8 @@
 //
 //   acoustic         cfl h/(c0 + |v|max)                     the pressure-velocity pair
 //   advective        cfl_adv h/|v|max                        neighbours, shifting: a fraction of h a step
-//   viscous          cfl_adv/2 h^2 rho0/mu                   Morris, Fox, Zhu 1997 (0.125 with cfl_adv = 0.25)
+//   viscous          cfl_adv/2 h^2 rho0/mu                   Morris, Fox, Zhu 1997 (0.125 with cfl_adv = 0.25); half
+//                                                            of it with the form of Monaghan and Gingold
 //   body force       cfl_adv sqrt(h/|a|max)                  Monaghan 1992
 //   surface tension  cfl_adv sqrt(rho0 h^3/(2 pi sigma))     Brackbill, Kothe, Zemach 1992
 //

@@ -62,6 +62,8 @@ class Wcsph final : public Model {
     std::string walls_reason() const;
     std::optional<std::string> refuse_object(const CollisionObject&) const override { return std::nullopt; }
     std::optional<std::string> refuse_domain(const Domain& domain) const override;
+    std::optional<std::string> refuse_objects(std::span<const CollisionObject> objects, const Domain& domain,
+                                              double t) const override;
 
     std::vector<ObjectLoad> object_loads(const Particles& particles, const Surroundings& surroundings) const override;
     void follow_energies(bool on) override { energies_.follow(on); }

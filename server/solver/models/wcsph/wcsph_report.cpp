@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "server/solver/models/wcsph/sound_speed.h"
@@ -64,6 +65,17 @@ std::optional<std::string> Wcsph::refuse_domain(const Domain& domain) const {
                       "reduce the spacing",
                       k, cell_side());
         return text;
+    }
+    return std::nullopt;
+}
+
+// Tried out: how many wall particles they need is known when they have been made.
+std::optional<std::string> Wcsph::refuse_objects(std::span<const CollisionObject> objects, const Domain& domain,
+                                                 double t) const {
+    try {
+        Walls(dimensions_, spacing_, p_.support_over_spacing * spacing_).rebuild(objects, domain, t);
+    } catch (const std::length_error& problem) {
+        return problem.what();
     }
     return std::nullopt;
 }
