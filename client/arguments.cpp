@@ -197,4 +197,23 @@ proto::Result<proto::SphereDesc> parse_sphere(std::string_view word) {
     return usage_error("a sphere has 3 numbers (2D) or 4 (3D)", "--sphere", "x,y,radius or x,y,z,radius");
 }
 
+proto::Result<proto::CylinderDesc> parse_cylinder(std::string_view word) {
+    auto numbers = parse_numbers(word, "--cylinder");
+    if (!numbers) return numbers.error();
+    const std::vector<double>& n = *numbers;
+    if (n.size() == 7) return proto::CylinderDesc{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]};
+    return usage_error("a cylinder has 7 numbers", "--cylinder",
+                       "the centres of its flat ends and the radius: x0,y0,z0,x1,y1,z1,r; in 2D use --sphere");
+}
+
+proto::Result<proto::PlaneDesc> parse_plane(std::string_view word) {
+    auto numbers = parse_numbers(word, "--plane");
+    if (!numbers) return numbers.error();
+    const std::vector<double>& n = *numbers;
+    if (n.size() == 4) return proto::PlaneDesc{{n[0], n[1], 0}, {n[2], n[3], 0}};
+    if (n.size() == 6) return proto::PlaneDesc{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    return usage_error("a plane has 4 numbers (2D) or 6 (3D)", "--plane",
+                       "a point and the normal towards the fluid: x,y,nx,ny or x,y,z,nx,ny,nz");
+}
+
 }  // namespace headrace::client

@@ -52,5 +52,9 @@ proto::Result<Removal> parse_removal(std::string_view word);
 proto::Result<proto::BoxDesc> parse_box(std::string_view word);
 // "x,y,r" in 2D, "x,y,z,r" in 3D.
 proto::Result<proto::SphereDesc> parse_sphere(std::string_view word);
+// "x0,y0,z0,x1,y1,z1,r"
+proto::Result<proto::CylinderDesc> parse_cylinder(std::string_view word);
+// A point and the normal: "x,y,nx,ny" in 2D, "x,y,z,nx,ny,nz" in 3D.
+proto::Result<proto::PlaneDesc> parse_plane(std::string_view word);
 
 }  // namespace headrace::client

@@ -6,6 +6,7 @@
 #include "client/convert.h"
 #include "client/interrupt.h"
 #include "client/jobs.h"
+#include "client/json_words.h"
 #include "client/record.h"
 #include "client/record_run.h"
 #include "client/scene_request.h"
@@ -20,12 +21,13 @@ namespace {
 
 struct LocalRun {
     std::string scene, until, out, format_words{"vtp"}, field_words;
-    std::vector<std::string> assignments, removals;
+    std::vector<std::string> assignments, removals, probes;
     std::optional<std::int64_t> steps;
     std::optional<double> fps;
-    bool at_rest{false}, overwrite{false};
+    bool at_rest{false}, overwrite{false}, writes_probes{false};
     int threads{0};
 
+    bool wants_probes() const { return writes_probes || !probes.empty(); }
     std::vector<std::string> formats() const {
         return format_words.empty() ? std::vector<std::string>{} : split(format_words, ',');
     }
@@ -94,17 +96,35 @@ proto::Result<std::optional<proto::FieldSet>> chosen_fields(const LocalRun& word
     return std::optional<proto::FieldSet>{*fields};
 }
 
-// Whether the fields of the scene's own choice are enough for the files to look at.
-proto::Status check_scene_fields(Connection& connection, const LocalRun& words) {
+// Whether the scene has what the files to look at need: fields of its own choice, probes.
+proto::Status check_scene(Connection& connection, const LocalRun& words, bool has_own_fields) {
     auto document = connection.request("scene.get", proto::Json::object(), Patience::query);
     if (!document) return document.error();
     auto scene = proto::parse_scene(document->dump());
     if (!scene) return scene.error();
+    if (words.writes_probes && words.probes.empty() && scene->probes.empty())
+        return usage_error("the scene has no probes", "--probes",
+                           R"(add one here: --probe 'gauge={"level": {"from": [0.1, 0], "to": [0.1, 0.5]}}')");
+    if (!has_own_fields) return proto::Done{};
     return check_fields(words.formats(), scene->output.fields, PictureOptions{}.color_field);
 }
 
+// Errors that the server tells of a probe are told of the option that gave it.
+proto::Status add_probes(Connection& connection, const std::vector<proto::ProbeDesc>& probes) {
+    for (const proto::ProbeDesc& probe : probes) {
+        auto added = call<proto::Applied>(connection, "probes.add", proto::ProbesAdd{probe}, Patience::while_alive);
+        if (added) continue;
+        proto::Error error = added.error();
+        constexpr std::string_view kRoot = "params.probe";
+        if (error.path.starts_with(kRoot)) error.path = "--probe " + probe.name + error.path.substr(kRoot.size());
+        return error;
+    }
+    return proto::Done{};
+}
+
 proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>& phases, const proto::Json& params,
-                                 const std::optional<proto::FieldSet>& fields) {
+                                 const std::optional<proto::FieldSet>& fields,
+                                 const std::vector<proto::ProbeDesc>& probes) {
     auto server = PrivateServer::start(words.threads);
     if (!server) return server.error();
     print_note("server " + (*server)->endpoint());
@@ -113,8 +133,8 @@ proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>
     auto loaded = load_scene(**connection, params);
     if (!loaded) return loaded.error();
     print_note(loaded_line(*loaded));
-    if (!fields)
-        if (auto checked = check_scene_fields(**connection, words); !checked) return checked.error();
+    if (auto checked = check_scene(**connection, words, !fields); !checked) return checked.error();
+    if (auto added = add_probes(**connection, probes); !added) return added.error();
 
     const fs::path folder = words.out.empty() ? fs::path(loaded->scene) : fs::path(words.out);
     std::error_code error;
@@ -132,6 +152,17 @@ proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>
     return Recorded{options.file, (*recorder)->frames(), (*recorder)->gaps(), outcome};
 }
 
+// The files to look at; none where there is nothing to convert.
+proto::Result<Conversion> convert_recorded(const LocalRun& words, const Recorded& recorded) {
+    ConvertOptions options;
+    options.recording = recorded.file;
+    options.folder = recorded.file.parent_path();
+    options.formats = words.formats();
+    options.probes = words.wants_probes();
+    if ((options.formats.empty() && !options.probes) || recorded.frames == 0 || is_interrupted()) return Conversion{};
+    return convert(options);
+}
+
 proto::Status run(const Globals& globals, const LocalRun& words) {
     auto phases = make_phases(words);
     if (!phases) return phases.error();
@@ -139,24 +170,27 @@ proto::Status run(const Globals& globals, const LocalRun& words) {
     if (!params) return params.error();
     auto fields = chosen_fields(words);
     if (!fields) return fields.error();
-    auto recorded = simulate(words, *phases, *params, *fields);
+    std::vector<proto::ProbeDesc> probes;
+    for (const std::string& word : words.probes) {
+        auto probe = parse_probe(word);
+        if (!probe) return probe.error();
+        probes.push_back(*std::move(probe));
+    }
+    auto recorded = simulate(words, *phases, *params, *fields, probes);
     if (!recorded) return recorded.error();
 
-    const std::string summary = recording_summary(recorded->frames, recorded->gaps);
-    if (globals.json)
-        print_json({{"file", recorded->file.string()}, {"frames", recorded->frames}, {"gaps", recorded->gaps}});
-    else
-        print_line(summary + ", " + recorded->file.string());
-    const std::vector<std::string> formats = words.formats();
-    if (formats.empty() || recorded->frames == 0 || is_interrupted()) return recorded->outcome;
-    ConvertOptions options;
-    options.recording = recorded->file;
-    options.folder = recorded->file.parent_path();
-    options.formats = formats;
-    auto conversion = convert(options);
+    auto conversion = convert_recorded(words, *recorded);
+    if (globals.json) {
+        proto::Json result{{"file", recorded->file.string()}, {"frames", recorded->frames}, {"gaps", recorded->gaps}};
+        if (conversion && words.wants_probes()) result["probe_files"] = conversion->probe_files;
+        print_json(result);
+    } else {
+        print_line(recording_summary(recorded->frames, recorded->gaps) + ", " + recorded->file.string());
+    }
     if (!conversion) return recorded->outcome ? proto::Status(conversion.error()) : recorded->outcome;
-    if (!globals.json)
-        for (const std::string& line : conversion->summaries) print_line(line);
+    if (globals.json) return recorded->outcome;
+    for (const std::string& line : conversion->summaries) print_line(line);
+    for (const std::string& file : conversion->probe_files) print_line(file);
     return recorded->outcome;
 }
 
@@ -169,7 +203,8 @@ void add_local_run_command(CLI::App& app, CommandLine& line) {
                     [words](const Globals& globals) { return run(globals, *words); });
     runner->add_option("SCENE", words->scene, "a scene's name (headrace scenes) or a file.json")->required();
     CLI::Option* until = runner->add_option(
-        "--until", words->until, "end: 2 (t = 2 s), +2 (2 s after the last --remove), step=400, at-rest (default)");
+        "--until", words->until,
+        "end: 2 (t = 2 s), +2 (2 s after the last --remove), step=400, a probe's value ('tip>0.3'), at-rest (default)");
     CLI::Option* steps = runner->add_option("--steps", words->steps, "end after so many steps")
                              ->check(CLI::PositiveNumber)
                              ->excludes(until);
@@ -188,6 +223,11 @@ void add_local_run_command(CLI::App& app, CommandLine& line) {
         ->add_option("--format", words->format_words,
                      "files to look at: vtp, csv, png; several with commas; \"\": none")
         ->capture_default_str();
+    runner->add_flag("--probes", words->writes_probes, "write a CSV file with the samples of each probe of the scene");
+    runner
+        ->add_option("--probe", words->probes,
+                     R"(a further probe, NAME=JSON, with its CSV file, such as 'tip={"front": {}}'; can be repeated)")
+        ->allow_extra_args(false);
     runner->add_option("--threads", words->threads, "of the solver; default: as many as the machine has")
         ->check(CLI::PositiveNumber);
     runner->add_flag("--overwrite", words->overwrite, "replace an earlier recording");

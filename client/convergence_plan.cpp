@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "client/arguments.h"
+#include "client/json_words.h"
 #include "client/scene_request.h"
 #include "proto/presets.h"
 #include "proto/shape_bounds.h"
@@ -114,26 +115,13 @@ proto::Result<proto::SceneDesc> read_scene(const std::string& scene, const std::
 }
 
 proto::Status add_probe(proto::SceneDesc& scene, const std::string& word) {
-    const std::size_t equals = word.find('=');
-    if (equals == 0 || equals == std::string::npos)
-        return usage_error("no NAME=JSON in \"" + word + "\"", "--probe",
-                           R"(for example --probe 'gauge={"level": {"from": [0.1, 0], "to": [0.1, 0.5]}}')");
-    const std::string name = word.substr(0, equals);
+    auto added = parse_probe(word);
+    if (!added) return added.error();
     for (const proto::ProbeDesc& probe : scene.probes)
-        if (probe.name == name)
-            return proto::Error{proto::ErrorCode::probe_exists, "there is a probe \"" + name + "\" already", "--probe",
-                                "choose another name"};
-    auto json = proto::parse_json(word.substr(equals + 1));
-    if (!json) {
-        proto::Error error = json.error();
-        error.path = "--probe " + name + (error.path.empty() ? "" : ": " + error.path);
-        return error;
-    }
-    proto::Json document = json->contains("kind") ? *json : proto::Json{{"kind", *json}};
-    document["name"] = name;
-    auto probe = proto::from_json<proto::ProbeDesc>(document, "--probe " + name);
-    if (!probe) return probe.error();
-    scene.probes.push_back(*std::move(probe));
+        if (probe.name == added->name)
+            return proto::Error{proto::ErrorCode::probe_exists, "there is a probe \"" + probe.name + "\" already",
+                                "--probe", "choose another name"};
+    scene.probes.push_back(*std::move(added));
     return proto::Done{};
 }
 

@@ -1,33 +1,12 @@
 #include "client/scene_request.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "client/arguments.h"
+#include "client/json_words.h"
 #include "client/text.h"
 
 namespace headrace::client {
-
-namespace {
-
-// The document as it stands: the server checks it and names paths inside it.
-proto::Result<proto::Json> read_document(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    if (!in || !(text << in.rdbuf()))
-        return proto::Error{proto::ErrorCode::file_error, std::strerror(errno), file,
-                            "headrace scenes lists the scenes that need no file"};
-    auto document = proto::parse_json(text.str());
-    if (document) return document;
-    proto::Error error = document.error();
-    error.path = error.path.empty() ? file : file + ": " + error.path;
-    return error;
-}
-
-}  // namespace
 
 proto::Result<proto::Json> scene_load_params(const std::string& scene, const std::vector<std::string>& assignments) {
     auto parameters = parse_assignments(assignments);
@@ -35,7 +14,7 @@ proto::Result<proto::Json> scene_load_params(const std::string& scene, const std
     proto::Json params = proto::to_json(proto::SceneLoad{scene, *std::move(parameters)});
     std::error_code ignored;
     if (scene.ends_with(".json") || std::filesystem::is_regular_file(scene, ignored)) {
-        auto document = read_document(scene);
+        auto document = read_json_file(scene, "headrace scenes lists the scenes that need no file");
         if (!document) return document.error();
         params["scene"] = *std::move(document);
     }

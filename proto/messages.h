@@ -393,8 +393,8 @@ using EventValue = std::variant<bool, std::int64_t, double, std::string>;
 
 // Types (the stable list is in proto/README.md): server.started scene.loaded scene.load_failed job.started job.ended
 // job.paused job.resumed sim.at_rest sim.not_at_rest sim.faulted params.changed object.added object.moved
-// object.removed probe.added probe.removed probe.failed scene_event.fired stream.opened stream.closed stream.failed
-// stream.stalled record.started record.stopped record.failed server.problem server.stopping
+// object.removed probe.added probe.removed probe.failed scene_event.fired scene_event.failed stream.opened
+// stream.closed stream.failed stream.stalled record.started record.stopped record.failed server.problem server.stopping
 struct Event {
     std::uint64_t seq{};  // from 1, gap-free within a session
     std::string type;

@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 namespace headrace::server {
@@ -18,6 +19,10 @@ proto::Result<std::shared_ptr<scene::Run>> build(const proto::SceneDesc& scene, 
     } catch (const std::bad_alloc&) {
         return proto::Error{proto::ErrorCode::limit_exceeded, "the server's memory is too small for this scene",
                             "scene.spacing", "enlarge scene.spacing"};
+    } catch (const std::length_error& problem) {
+        return proto::Error{proto::ErrorCode::limit_exceeded, problem.what(), "scene.objects",
+                            "shrink scene.domain, to which walls at rest are cut, and objects that move, or enlarge "
+                            "scene.spacing"};
     } catch (const std::exception& problem) {
         return proto::Error{proto::ErrorCode::internal_error, problem.what(), "scene", "report this as a bug"};
     }

@@ -150,7 +150,11 @@ void Simulation::Impl::fire_scene_events() {
         const proto::SceneEventDesc& event = run->scene().events[k];
         has_acted_on_rest |= event.at_rest;
         report("scene_event.fired", "scene event " + std::to_string(k), {{"event", static_cast<std::int64_t>(k)}});
-        std::visit([this](const auto& action) { act(action); }, event.action);
+        const proto::Status done = std::visit([this](const auto& action) { return act(action); }, event.action);
+        if (!done)
+            report("scene_event.failed",
+                   "scene event " + std::to_string(k) + ": " + done.error().message + "; " + done.error().hint,
+                   {{"event", static_cast<std::int64_t>(k)}, {"error", std::string(done.error().name())}});
     }
     if (!has_acted_on_rest) return;
     // What the event did may end the rest (it removes the panel): a run until at rest goes on to the next one.

@@ -68,10 +68,10 @@ struct Simulation::Impl {
     // An event of the scene that waits for rest must not wait for ever unnoticed.
     void report_overdue_rest();
     void fire_scene_events();
-    void act(const proto::RemoveObjectAction& action) { apply(0, proto::ObjectsRemove{action.name}); }
-    void act(const proto::MoveObjectAction& action) { apply(0, proto::ObjectsMove{action.name, action.to, {}}); }
-    void act(const proto::SetParametersAction& action) { apply(0, proto::ParamsSet{action.parameters, {}}); }
-    void act(const proto::PauseAction&) { pause_job(); }
+    proto::Status act(const proto::RemoveObjectAction& action);
+    proto::Status act(const proto::MoveObjectAction& action);
+    proto::Status act(const proto::SetParametersAction& action);
+    proto::Status act(const proto::PauseAction& action);
 
     // The run stops before garbage spreads; the state is kept for inspection, nobody waits in vain.
     void fault(const proto::FaultReport& found);
@@ -129,6 +129,7 @@ struct Simulation::Impl {
     void apply(Token token, HashWanted);
     void apply(Token token, proto::ServerShutdown);
     void set_parameters(Token token, const proto::Parameters& values);
+    proto::Result<proto::ParamsSetReply> change_parameters(const proto::Parameters& values);
     void apply_due_parameters();
     void refuse_deferred(const Error& error);
     proto::Status change_objects(proto::Status outcome, const char* event, const std::string& name);

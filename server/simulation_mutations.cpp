@@ -41,16 +41,40 @@ void Simulation::Impl::apply(Token token, proto::ParamsSet request) {
 }
 
 void Simulation::Impl::set_parameters(Token token, const proto::Parameters& values) {
+    auto reply = change_parameters(values);
+    if (reply)
+        answer(token, *std::move(reply));
+    else
+        outbox.put(token, reply.error());
+}
+
+proto::Result<proto::ParamsSetReply> Simulation::Impl::change_parameters(const proto::Parameters& values) {
     proto::ParamsSetReply reply{place().step, place().time, {}};
-    if (const proto::Status outcome = run->set_parameters(values, &reply.previous); !outcome) {
-        outbox.put(token, outcome.error());
-        return;
-    }
+    if (const proto::Status outcome = run->set_parameters(values, &reply.previous); !outcome) return outcome.error();
     std::string names;
     for (const auto& [name, value] : values) names += (names.empty() ? "" : ", ") + name;
     status.refresh_lists(*run);
     report("params.changed", "changed: " + names, {{"parameters", names}});
-    answer(token, std::move(reply));
+    return reply;
+}
+
+// What an event of the scene does; nobody waits for an answer.
+proto::Status Simulation::Impl::act(const proto::RemoveObjectAction& action) {
+    return change_objects(run->remove_object(action.name), "object.removed", action.name);
+}
+
+proto::Status Simulation::Impl::act(const proto::MoveObjectAction& action) {
+    return change_objects(run->move_object(action.name, action.to, {}), "object.moved", action.name);
+}
+
+proto::Status Simulation::Impl::act(const proto::SetParametersAction& action) {
+    const auto changed = change_parameters(action.parameters);
+    return changed ? proto::Status(proto::Done{}) : changed.error();
+}
+
+proto::Status Simulation::Impl::act(const proto::PauseAction&) {
+    pause_job();
+    return proto::Done{};
 }
 
 void Simulation::Impl::apply_due_parameters() {

@@ -51,6 +51,7 @@ class Level final : public Probe {
         }
         double open_fraction(const Vec3& x) const { return solids_.open_fraction(x, R_); }
         double top() const { return places_.empty() ? -R_ : places_.back(); }
+        double bottom() const { return places_.empty() ? 0.0 : places_.front(); }
         double R() const { return R_; }
 
       private:
@@ -76,7 +77,7 @@ class Level final : public Probe {
         double dry = std::min(length_, line.top() + line.R());
         if (dry <= 0.0) return 0.0;
         if (is_filled(run, line, dry)) return dry;
-        for (double wet = dry; wet > 0.0; dry = wet) {
+        for (double wet = dry; wet > 0.0 && dry > line.bottom() - line.R(); dry = wet) {
             wet = std::max(0.0, wet - step);
             if (is_filled(run, line, wet)) return refine(run, line, wet, dry);
         }

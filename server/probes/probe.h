@@ -56,7 +56,7 @@ std::unique_ptr<Probe> make_probe(const proto::ForceProbe& desc, int dimensions)
 std::unique_ptr<Probe> make_probe(const proto::EnergyProbe& desc, int dimensions);
 std::unique_ptr<Probe> make_probe(const proto::DensityProbe& desc, int dimensions);
 
-// Does the description make sense by itself? Errors: invalid_params with a path below `path`.
-proto::Status check_probe(const proto::ProbeDesc& desc, int dimensions, const std::string& path);
+// Does the description make sense in this run's dimensions and domain? Errors: invalid_params with a path below `path`.
+proto::Status check_probe(const proto::ProbeDesc& desc, const RunView& run, const std::string& path);
 
 }  // namespace headrace::probes

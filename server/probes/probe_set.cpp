@@ -44,7 +44,7 @@ Status ProbeSet::add(const proto::ProbeDesc& desc, const RunView& run, const std
     if (entries_.size() >= kMostProbes)
         return Error{ErrorCode::limit_exceeded, "there are " + std::to_string(kMostProbes) + " probes already", path,
                      "probes.remove some first"};
-    if (Status checked = check_probe(desc, run.particles.dimensions, path); !checked) return checked;
+    if (Status checked = check_probe(desc, run, path); !checked) return checked;
     Entry entry;
     entry.desc = desc;
     entry.probe = make_probe(desc, run.particles.dimensions);

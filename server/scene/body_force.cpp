@@ -66,6 +66,12 @@ Result<std::optional<solver::BodyForce>> make_body_force(const proto::SceneDesc&
             make_curves(*scene.frame_acceleration, scene.dimensions, scene.spacing, "scene.frame_acceleration");
         if (!curves) return curves.error();
         frame = std::move(*curves);
+        const bool is_table = std::holds_alternative<proto::TableDesc>(*scene.frame_acceleration);
+        for (int k = 0; k < scene.dimensions; ++k)
+            if (!std::isfinite(frame[k].value(0.0)))
+                return Error{ErrorCode::scene_invalid, "is " + std::to_string(frame[k].value(0.0)) + " at t = 0",
+                             "scene.frame_acceleration" + (is_table ? "" : "[" + std::to_string(k) + "]"),
+                             "look for a division by zero or a root of a negative number"};
     }
     const auto field = std::make_shared<Field>(scene.dimensions, std::move(*force), std::move(frame));
     if (field->is_zero()) return std::optional<solver::BodyForce>{};
@@ -82,9 +88,7 @@ proto::Status check_body_force(const proto::SceneDesc& scene, const solver::Body
         for (std::size_t i = 0; i < particles.size(); ++i) {
             if (std::isfinite(a[axis][i])) continue;
             const solver::Vec3 x{particles.x[0][i], particles.x[1][i], scene.dimensions == 3 ? particles.x[2][i] : 0.0};
-            const std::string member = scene.frame_acceleration ? "body_force or frame_acceleration" : "body_force";
-            return Error{ErrorCode::scene_invalid,
-                         member + " is " + value_at_text(a[axis][i], x, scene.dimensions) + ", t = 0",
+            return Error{ErrorCode::scene_invalid, "is " + value_at_text(a[axis][i], x, scene.dimensions) + ", t = 0",
                          "scene.body_force[" + std::to_string(axis) + "]", "it must be finite wherever there is fluid"};
         }
     return Done{};

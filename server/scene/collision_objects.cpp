@@ -5,6 +5,7 @@
 #include "server/scene/curves.h"
 #include "server/scene/shapes.h"
 #include "server/scene/vectors.h"
+#include "server/solver/boundaries/primitives.h"
 
 namespace headrace::scene {
 
@@ -115,6 +116,26 @@ Result<solver::CollisionObject> make_collision_object(const proto::ObjectDesc& o
         collision.motion = std::move(*motion);
     }
     return collision;
+}
+
+proto::Status check_turn(const proto::ObjectDesc& object, const solver::CollisionObject& collision,
+                         const solver::Domain& domain, int dimensions, const std::string& path) {
+    if (!object.motion || !object.motion->angle) return proto::Done{};
+    constexpr double kParallel = 1e-12;  // [1] as the walls take it
+    const Vec3 axis = dimensions == 2 ? Vec3{0.0, 0.0, 1.0} : normalized(object.motion->axis);
+    const solver::Body body = solver::make_body(collision, domain, dimensions);
+    const auto* plane = std::get_if<solver::Plane>(&collision.shape);
+    for (int k = 0; k < dimensions; ++k) {
+        const bool goes_on = body.endless[k] || (plane && std::abs(plane->normal[k]) < kParallel);
+        if (!domain.periodic[k] || !goes_on || std::abs(axis[k]) > 1.0 - kParallel) continue;
+        const std::string name(1, "xyz"[k]);
+        return Error{ErrorCode::scene_invalid,
+                     "turns the object out of the periodic axis " + name + ", along which it goes on",
+                     path + ".motion.angle",
+                     "make the object shorter than the period, or the domain not periodic" +
+                         std::string(dimensions == 2 ? "" : ", or turn it about " + name)};
+    }
+    return proto::Done{};
 }
 
 proto::ObjectDesc moved_by(const proto::ObjectDesc& object, const Vec3& displacement) {

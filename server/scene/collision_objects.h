@@ -18,6 +18,11 @@ namespace headrace::scene {
 proto::Result<solver::CollisionObject> make_collision_object(const proto::ObjectDesc& object, int dimensions,
                                                              double spacing, const std::string& path);
 
+// What goes on through a periodic axis (a plane, a box or cylinder as long as the period) must stay along it while it
+// turns. Errors: scene_invalid below `path`.
+proto::Status check_turn(const proto::ObjectDesc& object, const solver::CollisionObject& collision,
+                         const solver::Domain& domain, int dimensions, const std::string& path);
+
 proto::ObjectDesc moved_by(const proto::ObjectDesc& object, const proto::Vec3& displacement);
 
 // May the fluid be at x, with `slack` [m] to either side? Planes: on their normal's side; containers: inside;

@@ -2,6 +2,7 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -67,6 +68,11 @@ bool has_assignment(const std::string& text) {
     return false;
 }
 
+// What cannot be seen; muParser would end at a NUL and ignore the rest.
+bool has_control_character(const std::string& text) {
+    return std::ranges::any_of(text, [](unsigned char c) { return c < ' ' && c != '\t' && c != '\n' && c != '\r'; });
+}
+
 Error refused(const std::string& path, const std::string& message, const std::string& hint) {
     return {ErrorCode::scene_invalid, message, path, hint};
 }
@@ -81,6 +87,8 @@ Result<Formula> Formula::compile(const proto::Scalar& scalar, const Symbols& sym
         return formula;
     }
     const auto& text = std::get<std::string>(scalar);
+    if (has_control_character(text))
+        return refused(path, "has a control character", "write the expression in plain text");
     if (has_assignment(text))
         return refused(path, "cannot assign in an expression: \"" + text + "\"", "compare with ==, <=, >=, !=");
     try {
@@ -133,14 +141,20 @@ Result<std::array<Formula, 3>> compile_vector(const proto::ScalarVec3& vector, c
     return formulas;
 }
 
-std::string value_at_text(double value, const Vec3& x, int dimensions) {
-    char text[160];
+std::string place_text(const Vec3& x, int dimensions) {
+    char text[128];
     const auto plain = [&](int k) { return x[k] + 0.0; };  // no "-0"
     if (dimensions == 2)
-        std::snprintf(text, sizeof text, "%.6g at (%.6g, %.6g) m", value, plain(0), plain(1));
+        std::snprintf(text, sizeof text, "(%.6g, %.6g) m", plain(0), plain(1));
     else
-        std::snprintf(text, sizeof text, "%.6g at (%.6g, %.6g, %.6g) m", value, plain(0), plain(1), plain(2));
+        std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g) m", plain(0), plain(1), plain(2));
     return text;
+}
+
+std::string value_at_text(double value, const Vec3& x, int dimensions) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text + (" at " + place_text(x, dimensions));
 }
 
 }  // namespace headrace::scene

@@ -70,6 +70,8 @@ class FormulaTeam {
 proto::Result<std::array<Formula, 3>> compile_vector(const proto::ScalarVec3& vector, const Symbols& symbols,
                                                      const std::string& path);
 
+// "(0.1, 0.2, 0) m", for errors; 2D: two coordinates.
+std::string place_text(const proto::Vec3& x, int dimensions);
 // "nan at (0.1, 0.2, 0) m", for errors; 2D: two coordinates.
 std::string value_at_text(double value, const proto::Vec3& x, int dimensions);
 

@@ -7,9 +7,11 @@
 #include "proto/suggest.h"
 #include "server/scene/body_force.h"
 #include "server/scene/collision_objects.h"
+#include "server/scene/expressions.h"
 #include "server/scene/shapes.h"
 #include "server/scene/starts.h"
 #include "server/scene/validate.h"
+#include "server/solver/faults.h"
 #include "server/solver/models/registry.h"
 
 namespace headrace::scene {
@@ -28,6 +30,20 @@ constexpr const char* kOtherModelHint = "leave it out, or choose another model: 
 Error as_params_error(Error error) {
     if (error.code == ErrorCode::scene_invalid) error.code = ErrorCode::invalid_params;
     return error;
+}
+
+// Why the run cannot begin: a particle at fault, or speeds and forces that leave no time step.
+Status check_beginning(const solver::StepReport& report, const solver::Model& model, int dimensions) {
+    if (report.fault) {
+        const solver::Fault& fault = *report.fault;
+        return Error{ErrorCode::scene_invalid,
+                     std::string("at the start ") + solver::name_of(fault.kind) + " of particle " +
+                         std::to_string(fault.particle) + " at " + place_text(fault.x, dimensions),
+                     "scene", fault.remedy};
+    }
+    if (model.time_step() > 0.0 && std::isfinite(model.time_step())) return Done{};
+    return Error{ErrorCode::scene_invalid, "the first time step is " + std::to_string(model.time_step()) + " s",
+                 "scene", "look for speeds, accelerations, motions or parameters of absurd size"};
 }
 
 // Extent of the particles against gravity, one spacing for the particles' own size included; without gravity the
@@ -54,7 +70,20 @@ Result<solver::CollisionObject> Run::make_object(const proto::ObjectDesc& object
     if (!collision) return collision;
     if (const auto refusal = model_->refuse_object(*collision))
         return Error{ErrorCode::scene_invalid, *refusal, path, kOtherModelHint};
+    if (Status status = check_turn(object, *collision, domain_, scene_.dimensions, path); !status)
+        return status.error();
     return collision;
+}
+
+// Together, not one by one: what they need adds up. The object at `replaced` is another one now, or a new one.
+Status Run::check_objects(const solver::CollisionObject& object, std::size_t replaced, const std::string& path) const {
+    std::vector<solver::CollisionObject> objects = objects_;
+    objects.resize(std::max(objects.size(), replaced + 1));
+    objects[replaced] = object;
+    const auto refusal = model_->refuse_objects(objects, domain_, time_);
+    if (!refusal) return Done{};
+    return Error{ErrorCode::limit_exceeded, *refusal, path,
+                 "make the object smaller: one that moves counts as a whole"};
 }
 
 Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildControl* control) {
@@ -67,7 +96,8 @@ Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildCont
     run->domain_ = {scene.domain.min, scene.domain.max, scene.domain.periodic};
     run->model_ = solver::make_model(scene.model, scene.dimensions, scene.spacing, scene.parameters);
     if (const auto refusal = run->model_->refuse_domain(run->domain_))
-        return Error{ErrorCode::scene_invalid, *refusal, "scene.domain", kOtherModelHint};
+        return Error{ErrorCode::scene_invalid, *refusal, "scene.domain",
+                     "change scene.domain, or choose another model: scene.model"};
     run->object_descs_ = scene.objects;
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
         auto object = run->make_object(scene.objects[k], "scene.objects[" + std::to_string(k) + "]");
@@ -90,10 +120,7 @@ Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildCont
     if (run->body_force_)
         if (Status status = check_body_force(scene, *run->body_force_, run->particles_); !status) return status.error();
     run->report_ = run->model_->initialise(run->particles_, run->surroundings());
-    if (run->report_.fault)
-        return Error{ErrorCode::scene_invalid,
-                     "particle " + std::to_string(run->report_.fault->particle) + " is bad at the start", "scene",
-                     run->report_.fault->remedy};
+    if (Status status = check_beginning(run->report_, *run->model_, scene.dimensions); !status) return status.error();
     if (watched.cancelled) return cancelled_error();
     watched.progress = 1.0;
     return run;
@@ -114,7 +141,21 @@ solver::Diagnostics Run::diagnostics() const {
     return solver::compute_diagnostics(particles_, model_->gravity());
 }
 
+// Why the model would not have taken the scene with these values: a support too wide for its periods and walls.
+Status Run::check_parameters(const proto::Parameters& values) const {
+    solver::ParameterMap all = model_->parameters();
+    if (solver::check_parameters(model_->parameter_table(), values)) return Done{};  // the model says it better
+    for (const auto& [name, value] : values) all.insert_or_assign(name, value);
+    const auto candidate = solver::make_model(scene_.model, scene_.dimensions, scene_.spacing, all);
+    if (candidate->support_radius() == model_->support_radius()) return Done{};
+    auto refusal = candidate->refuse_domain(domain_);
+    if (!refusal) refusal = candidate->refuse_objects(objects_, domain_, time_);
+    if (!refusal) return Done{};
+    return Error{ErrorCode::invalid_params, *refusal, "params.parameters", "choose a smaller support"};
+}
+
 Status Run::set_parameters(const proto::Parameters& values, proto::Parameters* previous) {
+    if (Status status = check_parameters(values); !status) return status;
     const solver::ParameterMap before = model_->parameters();
     if (const auto refusal = model_->set_parameters(values))
         return parameter_error(*refusal, model_->parameter_table(), "params.parameters");
@@ -144,6 +185,7 @@ Status Run::add_object(const proto::ObjectDesc& object) {
                      "params.object", "objects.remove some first"};
     auto collision = make_object(object, "params.object");
     if (!collision) return as_params_error(collision.error());
+    if (Status status = check_objects(*collision, objects_.size(), "params.object"); !status) return status;
     object_descs_.push_back(object);
     objects_.push_back(std::move(*collision));
     ++objects_version_;
@@ -166,6 +208,7 @@ Status Run::move_object(const std::string& name, const std::optional<proto::Vec3
                      to ? "params.to" : "params.by", "move it by less"};
     auto collision = make_object(moved, "params");
     if (!collision) return as_params_error(collision.error());
+    if (Status status = check_objects(*collision, *found, to ? "params.to" : "params.by"); !status) return status;
     object = std::move(moved);
     objects_[*found] = std::move(*collision);
     ++objects_version_;

@@ -59,6 +59,9 @@ class Run {
     Run() = default;
     proto::Result<std::size_t> find_object(const std::string& name) const;
     proto::Result<solver::CollisionObject> make_object(const proto::ObjectDesc& object, const std::string& path) const;
+    proto::Status check_objects(const solver::CollisionObject& object, std::size_t replaced,
+                                const std::string& path) const;
+    proto::Status check_parameters(const proto::Parameters& values) const;
 
     proto::SceneDesc scene_;
     solver::Particles particles_;

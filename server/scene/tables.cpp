@@ -37,6 +37,11 @@ Result<Table> Table::make(const proto::TableDesc& desc, int columns, const std::
     }
     table.y2_.resize(table.y_.size());
     for (int column = 0; column < columns; ++column) table.fit(column);
+    for (std::size_t k = 0; k < table.y2_.size(); ++k)
+        if (!std::isfinite(table.y2_[k]))
+            return refused("[" + std::to_string(k / static_cast<std::size_t>(columns)) + "]",
+                           "is too far from its neighbours for a curve through them",
+                           "give values and times of ordinary size, in SI units");
     return table;
 }
 

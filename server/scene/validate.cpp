@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <set>
 #include <vector>
@@ -26,6 +27,13 @@ using proto::Status;
 
 Error invalid(std::string path, std::string message, std::string hint) {
     return {ErrorCode::scene_invalid, std::move(message), std::move(path), std::move(hint)};
+}
+
+// Enough of them to be copied into a document.
+std::string digits(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.10g", value);
+    return text;
 }
 
 std::string indexed(const char* list, std::size_t index) {
@@ -109,9 +117,9 @@ Status validate_period(const proto::SceneDesc& scene, const proto::FluidDesc& fl
         const double cells = period / scene.spacing, whole = std::max(1.0, std::round(cells));
         if (std::abs(cells - whole) <= 1e-6 * whole) continue;
         return invalid(path + ".shape",
-                       "fills a period of " + std::to_string(cells) + " spacings: the lattice would not go on evenly",
+                       "fills a period of " + digits(cells) + " spacings: the lattice would not go on evenly",
                        "make the domain a whole number of spacings along that axis, or scene.spacing " +
-                           std::to_string(period / whole) + " m");
+                           digits(period / whole) + " m");
     }
     return Done{};
 }

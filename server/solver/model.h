@@ -77,6 +77,11 @@ class Model {
     virtual std::optional<std::string> refuse_object(const CollisionObject& object) const = 0;
     virtual std::optional<std::string> refuse_domain(const Domain& domain) const = 0;
     virtual std::optional<std::string> refuse_body_force() const { return std::nullopt; }
+    // All objects of the scene together, placed as at time t [s]: do they ask for more than there is room for?
+    virtual std::optional<std::string> refuse_objects(std::span<const CollisionObject> /*objects*/,
+                                                      const Domain& /*domain*/, double /*t*/) const {
+        return std::nullopt;
+    }
 
     // ---- what probes ask for; computed on demand, at the state the last step left ----------------------------------
 

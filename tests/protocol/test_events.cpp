@@ -1,6 +1,8 @@
 // events.since and the events socket.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/support/server/client.h"
 #include "tests/support/server/scenes.h"
@@ -83,4 +85,28 @@ TEST_CASE("Events.StatusIsSentOnlyOnRequest") {
     Subscriber status(server->events_endpoint(), "status");
     const std::string message = status.receive("status");
     CHECK(Json::parse(message.substr(proto::kTopicBytes))["state"] == "empty");
+}
+
+TEST_CASE("Events.AnActionOfTheSceneThatIsRefusedIsTold") {
+    TestServer server;
+    Client client(server->control_endpoint());
+    Json scene = pond();
+    const auto remove_tank_at = [](int step) -> Json {
+        return {{"step", step}, {"action", {{"remove_object", {{"name", "tank"}}}}}};
+    };
+    scene["events"] = Json::array({remove_tank_at(1), remove_tank_at(2)});
+    client.call("scene.load", {{"scene", scene}});
+    client.call("sim.step", {{"steps", 3}});
+    std::vector<std::string> types;
+    const Json events = client.call("events.since", {{"seq", 0}})["events"];
+    for (const Json& event : events) {
+        types.push_back(event["type"]);
+        if (types.back() != "scene_event.failed") continue;
+        CHECK(event["data"]["event"] == 1);
+        CHECK(event["data"]["error"] == "object_not_found");
+        CHECK(event["message"].get<std::string>().find("tank") != std::string::npos);
+    }
+    CHECK(std::count(types.begin(), types.end(), "object.removed") == 1);
+    CHECK(std::count(types.begin(), types.end(), "scene_event.failed") == 1);
+    CHECK(client.call("sim.status")["step"] == 3);  // the run went on
 }

@@ -43,6 +43,7 @@ void Walls::rebuild(std::span<const CollisionObject> objects, const Domain& doma
     space_ = make_sampling_space(dimensions_, spacing_, depth_, domain);
     objects_.clear();
     panels_.clear();
+    panel_of_.assign(objects.size(), kNoPanel);
     dummies_.clear();
     for (std::size_t k = 0; k < objects.size(); ++k) {
         objects_.emplace_back(objects[k], space_, t);
@@ -50,6 +51,7 @@ void Walls::rebuild(std::span<const CollisionObject> objects, const Domain& doma
         SamplingSpace space = space_;
         space.is_bounded = !objects_.back().is_moving();
         if (const auto panel = make_thin_panel(body, depth_)) {
+            panel_of_[k] = panels_.size();
             panels_.push_back({k, *panel});
             sample_thin_panel(body, space, static_cast<Index>(k), dummies_);
         } else {
@@ -85,10 +87,7 @@ bool Walls::move_to(double t) {
 }
 
 const ThinPanel* Walls::find_panel(std::size_t object) const {
-    for (const Panel& panel : panels_) {
-        if (panel.object == object) return &panel.shape;
-    }
-    return nullptr;
+    return panel_of_[object] == kNoPanel ? nullptr : &panels_[panel_of_[object]].shape;
 }
 
 // Does the dummy at x (in the domain) belong to its object there, as far as the moving objects tell, or those at rest?

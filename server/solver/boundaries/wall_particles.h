@@ -77,6 +77,7 @@ class Walls final : public Visibility {
     bool is_near_thin(const Vec3& x, double reach) const override;
 
   private:
+    static constexpr std::size_t kNoPanel = static_cast<std::size_t>(-1);
     struct Panel {
         std::size_t object{};
         ThinPanel shape;
@@ -96,12 +97,13 @@ class Walls final : public Visibility {
     double depth_;    // [m]
     SamplingSpace space_;
     std::vector<WallObject> objects_;
-    std::vector<Panel> panels_;      // in the objects' order
-    std::vector<Dummy> dummies_;     // all, by id
-    std::vector<Vec3> place_;        // [m] of each dummy in the domain
-    std::vector<char> active_;       // of each dummy
-    std::vector<Index> changeable_;  // ids
-    WallParticles particles_;        // the active ones
+    std::vector<Panel> panels_;          // in the objects' order
+    std::vector<std::size_t> panel_of_;  // of each object: index of its panel, or kNoPanel
+    std::vector<Dummy> dummies_;         // all, by id
+    std::vector<Vec3> place_;            // [m] of each dummy in the domain
+    std::vector<char> active_;           // of each dummy
+    std::vector<Index> changeable_;      // ids
+    WallParticles particles_;            // the active ones
 };
 
 }  // namespace headrace::solver

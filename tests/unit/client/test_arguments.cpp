@@ -92,5 +92,11 @@ TEST_CASE("Arguments.ShapesHaveTheirNumbers") {
     CHECK(parse_sphere("1,2,0.5")->center == proto::Vec3{1, 2, 0});
     CHECK_FALSE(parse_box("0,1,2"));
     CHECK_FALSE(parse_sphere("0,1"));
+    CHECK(parse_cylinder("0,1,2,3,4,5,0.5")->to == proto::Vec3{3, 4, 5});
+    CHECK(parse_cylinder("0,1,2,3,4,5,0.5")->radius == 0.5);
+    CHECK_FALSE(parse_cylinder("0,1,2,3,0.5"));
+    CHECK(parse_plane("1,2,0,-1")->normal == proto::Vec3{0, -1, 0});
+    CHECK(parse_plane("1,2,3,0,0,1")->point == proto::Vec3{1, 2, 3});
+    CHECK_FALSE(parse_plane("1,2,0"));
     CHECK_FALSE(parse_vector("1", "--by"));
 }

@@ -74,6 +74,20 @@ TEST_CASE("ProbeSet.RefusesWhatCannotBeMeasured") {
           "params.probe.kind.profile.field");
     CHECK(refusal(proto::PressureProbe{{}, 0.1, {}}).path == "params.probe.kind.pressure.normal");
     CHECK(refusal(proto::DischargeProbe{}).path == "params.probe.kind.discharge.normal");
+    // The fluid has two dimensions: what points out of them would measure nothing.
+    CHECK(refusal(proto::FrontProbe{{0, 0, 1}}).path == "params.probe.kind.front.direction[2]");
+    CHECK(refusal(proto::DischargeProbe{{}, {0, 0, 1}}).path == "params.probe.kind.discharge.normal[2]");
+    CHECK(refusal(proto::LevelProbe{{}, {0, 0, 1}}).path == "params.probe.kind.level.to[2]");
+    CHECK(refusal(proto::VelocityProbe{{0, 0, 1}}).path == "params.probe.kind.velocity.point[2]");
+    CHECK(refusal(proto::PressureProbe{{}, 0.1, {0, 0, 1}}).path == "params.probe.kind.pressure.normal[2]");
+    // Lengths whose squares overflow, and those in which a spacing is lost to round-off.
+    for (const double far : {1e300, 1e9}) {
+        CHECK(refusal(proto::LevelProbe{{0, -far, 0}, {0, far, 0}}).path == "params.probe.kind.level.from");
+        CHECK(refusal(proto::ProfileProbe{{}, {far, 0, 0}}).path == "params.probe.kind.profile.to");
+        CHECK(refusal(proto::PressureProbe{{}, far, {1, 0, 0}}).path == "params.probe.kind.pressure.radius");
+        CHECK(refusal(proto::PressureProbe{{far, 0, 0}, 0.0, {}}).path == "params.probe.kind.pressure.point");
+        CHECK(refusal(proto::ForceProbe{"tank", {far, 0, 0}}).path == "params.probe.kind.force.about");
+    }
     // This model tells no energies, and no forces.
     CHECK(refusal(proto::EnergyProbe{}).message.find("still") != std::string::npos);
     tank.scene.objects = {box_object("tank", solver::Role::container, {0, 0, 0}, {1, 1, 1})};

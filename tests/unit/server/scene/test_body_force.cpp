@@ -95,6 +95,8 @@ TEST_CASE("BodyForce.RefusalsNameTheMember") {
     CHECK(scene::make_body_force(scene).error().path == "scene.frame_acceleration[0]");
     scene.frame_acceleration = proto::TableDesc{{{0, 0}, {1, 0}}};
     CHECK(scene::make_body_force(scene).error().path == "scene.frame_acceleration.table[0]");
+    scene.frame_acceleration = proto::ScalarVec3{0.0, std::string("1/t"), 0.0};
+    CHECK(scene::make_body_force(scene).error().path == "scene.frame_acceleration[1]");
 }
 
 TEST_CASE("BodyForce.MustBeFiniteWhereTheFluidIs") {

@@ -74,6 +74,9 @@ TEST_CASE("Formula.RefusalsSayWhatAndWhereAndWhatIsAllowed") {
     CHECK(has(refusal("\"word\"").message, "no valid expression"));
     CHECK(has(refusal("1, 2").message, "must be one value"));
     CHECK(has(refusal("x = 3").message, "cannot assign"));
+    const auto cut = Formula::compile(std::string("x\0y", 3), kAll, "here");  // muParser would end at the NUL
+    REQUIRE_FALSE(cut.ok());
+    CHECK(has(cut.error().message, "control character"));
     CHECK(has(refusal("1/0").message, "not a finite number"));
     CHECK(has(refusal("sqrt(-1)").message, "not a finite number"));
     CHECK_FALSE(Formula::compile(std::nan(""), kAll, "here").ok());

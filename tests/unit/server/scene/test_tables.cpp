@@ -100,6 +100,8 @@ TEST_CASE("Table.RefusalsNameTheRow") {
     CHECK(refused_path({{0}, {1}}) == "here.table[0]");
     CHECK(refused_path({{0, 1}, {1, nan}}) == "here.table[1][1]");
     CHECK(refused_path({{0, 1}, {nan, 1}}) == "here.table[1][0]");
+    // No curve of finite curvature goes through these.
+    CHECK(refused_path({{0, 1e308}, {1e-300, -1e308}, {1, 0}}) == "here.table[1]");
 }
 
 TEST_CASE("Table.OfFlatVectorsMayHaveAThirdColumnOfZeros") {

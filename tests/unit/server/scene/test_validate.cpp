@@ -21,6 +21,16 @@ proto::SceneDesc cube(int dimensions = 3) {
     return scene;
 }
 
+// 0.2 m of water on a floor, without ends along x.
+proto::SceneDesc channel() {
+    proto::SceneDesc scene = cube(2);
+    scene.model = "wcsph";
+    scene.domain = {{0, -1, 0}, {1.2, 1, 0}, {true, false, false}};
+    scene.fluids[0].shape = proto::BoxDesc{{0, 0, 0}, {1.2, 0.2, 0}};
+    scene.objects.push_back({"floor", proto::ObjectRole::obstacle, proto::PlaneDesc{{0, 0, 0}, {0, 1, 0}}});
+    return scene;
+}
+
 std::string refused(const proto::Status& status) {
     if (status.ok()) return "taken";
     CHECK(status.error().code == proto::ErrorCode::scene_invalid);
@@ -146,6 +156,78 @@ TEST_CASE("Validate.AFluidGoesOnEvenlyOverAPeriod") {
     scene = cube(2);
     scene.domain.periodic[2] = true;
     CHECK(refused(scene) == "scene.domain.periodic[2]");
+}
+
+TEST_CASE("Validate.TheSpacingToTakeInsteadCanBeCopied") {
+    proto::SceneDesc scene = cube(2);
+    scene.spacing = 2.1e-4;
+    scene.domain = {{0, 0, 0}, {0.2, 0.5, 0}, {true, false, false}};
+    scene.fluids[0].shape = proto::BoxDesc{{0, 0, 0}, {0.2, 0.01, 0}};
+    scene::BuildControl control;
+    const std::string hint = scene::validate(scene, control).error().hint;
+    scene.spacing = std::stod(hint.substr(hint.find("scene.spacing ") + 14));
+    CHECK(scene.spacing == Approx(2.1e-4).epsilon(1e-3));
+    CHECK(refused(scene) == "taken");
+}
+
+TEST_CASE("Validate.WallsWithoutEndsDoNotTurnOutOfTheirAxis") {
+    proto::SceneDesc scene = channel();
+    scene.objects[0].motion.emplace();
+    scene.objects[0].motion->displacement = ScalarVec3{std::string("0.01*sin(t)"), 0.0, 0.0};
+    CHECK(refused_by_model(scene) == "taken");
+    scene.objects[0].motion->angle = Scalar(std::string("0.1*sin(t)"));
+    CHECK(refused_by_model(scene) == "scene.objects[0].motion.angle");
+    scene.objects[0].shape = proto::BoxDesc{{0, -0.5, 0}, {1.2, 0, 0}};  // as long as the period
+    CHECK(refused_by_model(scene) == "scene.objects[0].motion.angle");
+    scene.objects[0].shape = proto::BoxDesc{{0.1, -0.5, 0}, {0.5, -0.3, 0}};
+    CHECK(refused_by_model(scene) == "taken");
+
+    scene = cube(3);
+    scene.model = "wcsph";
+    scene.domain = {{0, -1, 0}, {1.2, 1, 1.2}, {true, false, true}};
+    scene.fluids[0].shape = proto::BoxDesc{{0, 0, 0}, {1.2, 0.2, 1.2}};
+    scene.objects.push_back(
+        {"roller", proto::ObjectRole::obstacle, proto::CylinderDesc{{0, -0.5, 0.2}, {1.2, -0.5, 0.2}, 0.3}});
+    scene.objects[0].motion.emplace();
+    scene.objects[0].motion->angle = Scalar(std::string("t"));
+    scene.objects[0].motion->pivot = {0, -0.5, 0.2};
+    scene.objects[0].motion->axis = {2, 0, 0};
+    CHECK(refused_by_model(scene) == "taken");  // about its own axis
+    scene.objects[0].motion->axis = {0, 1, 0};
+    CHECK(refused_by_model(scene) == "scene.objects[0].motion.angle");
+}
+
+TEST_CASE("Validate.ASceneWithoutAFirstTimeStepIsRefused") {
+    proto::SceneDesc scene = channel();
+    scene.fluids[0].velocity[0] = 1e300;
+    CHECK(refused_by_model(scene) == "scene");
+    scene.fluids[0].velocity[0] = 0.0;
+    scene.objects[0].surface_velocity = ScalarVec3{1e300, 0.0, 0.0};
+    CHECK(refused_by_model(scene) == "scene");
+}
+
+// What the next step could not do is refused at once, and the run goes on as it was.
+TEST_CASE("Validate.MoreThanARunCanHoldIsRefusedBeforeTheStep") {
+    auto run = scene::Run::build(channel());
+    REQUIRE(run.ok());
+    // Walls at rest are cut to the domain, moving ones come whole: 10^9 spacings of surface.
+    proto::ObjectDesc object{"ship", proto::ObjectRole::obstacle, proto::BoxDesc{{-1e8, -1e8, 0}, {1e8, -0.5, 0}}};
+    object.motion.emplace();
+    object.motion->displacement = ScalarVec3{0.0, std::string("0.01*sin(t)"), 0.0};
+    proto::Status status = (*run)->add_object(object);
+    REQUIRE_FALSE(status.ok());
+    CHECK(status.error().code == proto::ErrorCode::limit_exceeded);
+    CHECK(status.error().path == "params.object");
+    CHECK((*run)->objects().size() == 1);
+
+    // Three cells of 6.5 spacings do not fit into a period of twelve.
+    status = (*run)->set_parameters({{"support_over_spacing", 6.0}});
+    REQUIRE_FALSE(status.ok());
+    CHECK(status.error().code == proto::ErrorCode::invalid_params);
+    CHECK(status.error().path == "params.parameters");
+    CHECK(std::get<double>((*run)->model().parameters().at("support_over_spacing")) != 6.0);
+    CHECK((*run)->set_parameters({{"viscosity", 1.0}}));
+    CHECK_FALSE((*run)->step().fault);
 }
 
 TEST_CASE("Validate.TheModelMayRefuse") {
