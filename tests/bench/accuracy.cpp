@@ -10,6 +10,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "tests/bench/accuracy_costs.h"
 #include "tests/bench/accuracy_ladder.h"
 #include "tests/bench/accuracy_report.h"
 #include "tests/bench/accuracy_targets.h"
@@ -26,7 +27,7 @@ struct Options {
     std::string model;
     double resolution{0.0}, support{0.0};
     int threads{1};
-    bool lists{false}, draws{false}, judges{false}, climbs{false};
+    bool lists{false}, draws{false}, judges{false}, climbs{false}, weighs{false};
     LadderPlan ladders;
     std::string folder{std::string(HEADRACE_SOURCE_DIR) + "/tests/bench/results"};
 };
@@ -87,6 +88,7 @@ void define_options(CLI::App& app, Options& options) {
                    "Ladders: seconds after which no run is begun; call again to go on");
     app.add_option("--longest", options.ladders.longest, "Ladders: seconds a run may take")->capture_default_str();
     app.add_flag("--draw", options.draws, "Only summary and diagrams from the accuracy.csv there is");
+    app.add_flag("--costs", options.weighs, "Measures what each option costs in processor time, on one thread");
     app.add_flag("--targets", options.judges, "Runs the cases at the resolution of their targets and judges them");
 
     app.add_option("--model", options.model, "Model; ladders: only this one");
@@ -152,6 +154,11 @@ int run_accuracy(int argc, char** argv) {
     if (options.support > 0) settings.support_over_spacing = options.support;
 
     if (options.judges) return run_targets(options.cases, settings, options.folder + "/targets.md") ? 0 : 1;
+    if (options.weighs) {
+        omp_set_num_threads(1);
+        std::filesystem::create_directories(options.folder);
+        return measure_costs(options.folder) ? 0 : 1;
+    }
     const bool is_single = settings.resolution || settings.support_over_spacing || !settings.parameters.empty() ||
                            settings.brief || settings.sound_speed_factor != 1.0;
     if (is_single && !options.climbs) return run_each(options) ? 0 : 1;

@@ -41,6 +41,12 @@ proto::Result<validation::Settings> stiffened(const validation::Case& one, valid
     auto run = scene::Run::build(*scene);
     if (!run) return run.error();
     const double c0 = validation::find_sound_speed(**run);
+    if (c0 == 0.0) {
+        proto::Error error;
+        error.code = proto::ErrorCode::scene_invalid;
+        error.message = "nothing under pressure at the start tells the sound speed";
+        return error;
+    }
     auto own = validation::make_scene(one, settings);
     if (!own) return own.error();
     auto own_run = scene::Run::build(*own);

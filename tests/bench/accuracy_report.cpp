@@ -44,7 +44,7 @@ std::string cheapest_line(const std::vector<AccuracyRow>& rows, double error, co
 std::vector<std::size_t> find_pareto_front(const std::vector<AccuracyRow>& rows) {
     std::vector<std::size_t> order(rows.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::erase_if(order, [&](std::size_t i) { return !is_usable(rows[i]); });
+    std::erase_if(order, [&](std::size_t i) { return !is_usable(rows[i]) || rows[i].error > 1.0; });
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return rows[a].wall_s != rows[b].wall_s ? rows[a].wall_s < rows[b].wall_s : rows[a].error < rows[b].error;
     });

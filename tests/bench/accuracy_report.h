@@ -9,7 +9,8 @@
 
 namespace headrace::bench {
 
-// Indices of the rows no other row beats in both wall time and error, ascending in wall time. NaN errors never belong.
+// Indices of the rows no other row beats in both wall time and error, ascending in wall time. Errors that are NaN or
+// above 1 never belong: they are no results.
 std::vector<std::size_t> find_pareto_front(const std::vector<AccuracyRow>& rows);
 
 // Slope of log error over log dp by least squares; nothing for fewer than two usable rows.
@@ -25,7 +26,7 @@ std::vector<AccuracyRow> select(const std::vector<AccuracyRow>& rows, const std:
 // Per case: order of each option, front, cheapest setting for 1 % and 0.3 %. Markdown.
 std::string summarise(const std::vector<AccuracyRow>& rows);
 
-// One PNG per case, and one with four cases side by side, below `folder`. False: gnuplot failed, said on stderr.
+// One PNG per case, and one with five cases side by side, below `folder`. False: gnuplot failed, said on stderr.
 bool draw_diagrams(const std::vector<AccuracyRow>& rows, const std::string& folder);
 
 }  // namespace headrace::bench

@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "tests/validation/support/measures.h"
+#include "tests/validation/support/model_values.h"
 
 namespace headrace::validation {
 
 namespace {
 
-constexpr double kC0 = 10.0;                 // [m/s] of the scene
 constexpr double kK = 2 * std::numbers::pi;  // [1/m] one wave in 1 m
 constexpr int kPeriods = 5;
 constexpr int kSamples = 40;  // a period
@@ -17,7 +17,7 @@ constexpr int kSamples = 40;  // a period
 // Follows the cosine mode of the pressure.
 class Sound : public RegularObserver {
   public:
-    Sound() : RegularObserver(kPeriods / kC0, 1 / kC0 / kSamples) {}
+    explicit Sound(double c0) : RegularObserver(kPeriods / c0, 1 / c0 / kSamples), c0_(c0) {}
 
     void sample(const scene::Run& run) override {
         const solver::Particles& particles = run.particles();
@@ -27,13 +27,14 @@ class Sound : public RegularObserver {
     }
 
     std::vector<Measured> measured() const override {
-        const DampedWave wave = fit_damped_wave(mode_, 0.0, kK * kC0, 0.0);
-        return {{"phase_speed", std::abs(wave.omega / (kK * kC0) - 1)},
+        const DampedWave wave = fit_damped_wave(mode_, 0.0, kK * c0_, 0.0);
+        return {{"phase_speed", std::abs(wave.omega / (kK * c0_) - 1)},
                 {"damping", std::abs(wave.rate) / wave.omega},
                 {"growth", std::max(0.0, -wave.rate / wave.omega)}};
     }
 
   private:
+    double c0_;    // [m/s]
     Series mode_;  // [Pa]
 };
 
@@ -47,8 +48,8 @@ std::vector<Case> acoustic_wave_cases() {
     one.resolution = 64;
     one.ladder = {16, 24, 32, 48, 64};
     one.main_metric = "phase_speed";
-    one.observe = [](const scene::Run&, const Settings&) -> std::unique_ptr<Observer> {
-        return std::make_unique<Sound>();
+    one.observe = [](const scene::Run& run, const Settings&) -> std::unique_ptr<Observer> {
+        return std::make_unique<Sound>(find_sound_speed(run));
     };
     return {one};
 }

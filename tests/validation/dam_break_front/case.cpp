@@ -54,6 +54,7 @@ std::vector<Case> dam_break_front_cases() {
     one.length_name = "a";
     one.length = kWidth;
     one.resolution = 40;
+    one.ladder = {14, 20, 28, 40, 56};
     one.main_metric = "front_nrmse";
     one.observe = [](const scene::Run&, const Settings&) -> std::unique_ptr<Observer> {
         return std::make_unique<Front>();

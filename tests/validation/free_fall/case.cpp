@@ -59,6 +59,7 @@ std::vector<Case> free_fall_cases() {
     one.length_name = "L";
     one.length = kSide;
     one.resolution = 20;
+    one.ladder = {10, 14, 20, 28};
     one.main_metric = "energy";
     one.observe = [](const scene::Run&, const Settings&) -> std::unique_ptr<Observer> {
         return std::make_unique<Fall>();

@@ -85,6 +85,7 @@ std::vector<Case> standing_wave_cases();
 std::vector<Case> acoustic_wave_cases();
 std::vector<Case> capillary_drop_cases();
 std::vector<Case> dam_break_front_cases();
+std::vector<Case> dam_break_pressure_cases();
 std::vector<Case> lobovsky_cases();
 std::vector<Case> kleefsman_cases();
 std::vector<Case> free_fall_cases();

@@ -80,7 +80,7 @@ const std::vector<Case>& cases() {
         for (const auto make :
              {oscillating_drop_cases, elliptical_drop_cases, taylor_green_cases, channel_cases, cavity_cases,
               hydrostatic_cases, standing_wave_cases, acoustic_wave_cases, capillary_drop_cases, dam_break_front_cases,
-              lobovsky_cases, kleefsman_cases, free_fall_cases, balance_cases})
+              dam_break_pressure_cases, lobovsky_cases, kleefsman_cases, free_fall_cases, balance_cases})
             for (Case& one : make()) list.push_back(std::move(one));
         return list;
     }();
