@@ -95,9 +95,11 @@ const ChoiceRow<PressureGradient> kGradient{
      "plain (no gradient correction); automatic: adjoint at free surfaces, difference in confined flow."},
     &P::pressure_gradient,
     {"automatic", "difference", "adjoint", "plain"}};
-const ChoiceRow<DensityDiffusion> kDiffusion{{"density_diffusion", "1", "Form of the density diffusion."},
-                                             &P::density_diffusion,
-                                             {"none", "molteni_colagrossi", "fourtakas", "antuono"}};
+const ChoiceRow<DiffusionForm> kDiffusion{
+    {"density_diffusion", "1",
+     "Form of the density diffusion; automatic: antuono at free surfaces, fourtakas in confined flow."},
+    &P::density_diffusion,
+    {"automatic", "none", "molteni_colagrossi", "fourtakas", "antuono"}};
 const ChoiceRow<ArtificialViscosity> kArtificial{
     {"artificial_viscosity_form", "1",
      "Form of the artificial viscosity: reconstructed (spares the resolved flow) or monaghan."},

@@ -13,6 +13,7 @@
 namespace headrace::solver {
 
 enum class StateEquationKind { linear, tait };
+enum class DiffusionForm { automatic, none, molteni_colagrossi, fourtakas, antuono };
 enum class TensionForm { continuum, thesis };
 enum class ArtificialViscosity { reconstructed, monaghan };
 enum class WallSuction { automatic, allowed, clamped };
@@ -37,7 +38,7 @@ struct WcsphParameters {
     double support_over_spacing{3.0};  // R/dx [1]
     PressureGradient pressure_gradient{PressureGradient::automatic};
     double correction_threshold{0.9};  // smallest eigenvalue from which B is used
-    DensityDiffusion density_diffusion{DensityDiffusion::antuono};
+    DiffusionForm density_diffusion{DiffusionForm::automatic};
     double density_diffusion_factor{0.05};  // xi [1]
     double artificial_viscosity{0.03};      // alpha [1]
     ArtificialViscosity artificial_viscosity_form{ArtificialViscosity::reconstructed};

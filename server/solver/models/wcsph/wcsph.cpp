@@ -22,13 +22,17 @@ void Wcsph::resize_state(std::size_t count) {
         for (int k = 0; k < symmetric_size(dimensions_); ++k) (*field)[k].assign(count, 0.0);
 }
 
+void Wcsph::put_body_force(Particles& particles, const Surroundings& surroundings) {
+    for (int k = 0; k < 3; ++k) std::fill(particles.a[k].begin(), particles.a[k].end(), 0.0);
+    if (surroundings.body_force != nullptr) (*surroundings.body_force)(surroundings.time, particles, particles.a);
+}
+
 void Wcsph::prepare(Particles& particles, const Surroundings& surroundings) {
     for (int k = 0; k < 3; ++k) {
         particles.v_half[k].clear();
         period_[k] = surroundings.domain.max[k] - surroundings.domain.min[k];
-        std::fill(particles.a[k].begin(), particles.a[k].end(), 0.0);
     }
-    if (surroundings.body_force != nullptr) (*surroundings.body_force)(surroundings.time, particles, particles.a);
+    put_body_force(particles, surroundings);
     place_walls(surroundings, surroundings.time, true);
     c0_ = choose_sound_speed(p_, particles, spacing_, walls_.max_speed());
     set_state_equation();

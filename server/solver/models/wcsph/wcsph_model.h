@@ -93,6 +93,22 @@ class Wcsph final : public Model {
         return p_.pressure_gradient == PressureGradient::adjoint || p_.pressure_gradient == PressureGradient::plain ||
                (p_.pressure_gradient == PressureGradient::automatic && p_.free_surface);
     }
+    // Fourtakas takes still water for granted: wrong in free fall, and better than Antuono where none is possible.
+    DensityDiffusion diffusion() const {
+        switch (p_.density_diffusion) {
+            case DiffusionForm::none:
+                return DensityDiffusion::none;
+            case DiffusionForm::molteni_colagrossi:
+                return DensityDiffusion::molteni_colagrossi;
+            case DiffusionForm::fourtakas:
+                return DensityDiffusion::fourtakas;
+            case DiffusionForm::antuono:
+                return DensityDiffusion::antuono;
+            case DiffusionForm::automatic:
+                break;
+        }
+        return p_.free_surface ? DensityDiffusion::antuono : DensityDiffusion::fourtakas;
+    }
     bool is_morris() const {
         return p_.viscosity_form == ViscosityForm::morris ||
                (p_.viscosity_form == ViscosityForm::automatic && !p_.free_surface);
@@ -134,6 +150,8 @@ class Wcsph final : public Model {
     StepChoice limit_step(double dt_before) const;
     RunLimits run_limits() const;
     void resize_state(std::size_t count);
+    // Into particles.a, and nothing else: what the sound speed's rule reads.
+    void put_body_force(Particles& particles, const Surroundings& surroundings);
     void sort_all(Particles& particles, const Surroundings& surroundings);
     void wrap(Particles& particles, const Domain& domain) const;
     void place_walls(const Surroundings& surroundings, double t, bool anew);

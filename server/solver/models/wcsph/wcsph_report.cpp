@@ -24,8 +24,8 @@ std::optional<ParameterError> Wcsph::set_parameters(const ParameterMap& values) 
     if (auto error = check_parameters(table_, values)) return error;
     for (const auto& [key, value] : values) overrides_[key] = value;
     has_new_parameters_ = true;
-    for (const char* name :
-         {"gravity", "viscosity", "rest_density", "sound_speed", "reference_speed", "reference_length"})
+    for (const char* name : {"gravity", "viscosity", "surface_tension", "rest_density", "sound_speed",
+                             "reference_speed", "reference_length"})
         has_new_stiffness_ = has_new_stiffness_ || values.contains(name);
     energies_.follow(energies_.is_on());  // another fluid: the account begins anew
     p_ = make_wcsph_parameters(overrides_);
@@ -46,7 +46,10 @@ void Wcsph::use_new_parameters(Particles& particles, const Surroundings& surroun
     place_walls(surroundings, surroundings.time, true);
     const double c0_before = c0_;
     // Only when what the rule depends on has changed: its speeds are those of now.
-    if (std::exchange(has_new_stiffness_, false)) c0_ = choose_sound_speed(p_, particles, spacing_, walls_.max_speed());
+    if (std::exchange(has_new_stiffness_, false)) {
+        put_body_force(particles, surroundings);  // compute_state() gives them their accelerations again
+        c0_ = choose_sound_speed(p_, particles, spacing_, walls_.max_speed());
+    }
     if (p_.sound_speed <= 0.0) c0_ = std::max(c0_, c0_before);  // the rule may stiffen a running fluid, never soften it
     const StateEquation eos_before = eos_;
     set_state_equation();

@@ -238,14 +238,14 @@ void Wcsph::acoustic_step(Particles& particles, const Surroundings& surroundings
     timed(kContinuity, [&] {
         ContinuityOptions options;
         options.diffusion = p_.density_diffusion_factor * h() * c0_;
-        if (p_.density_diffusion == DensityDiffusion::fourtakas)
+        if (diffusion() == DensityDiffusion::fourtakas)
             for (int k = 0; k < 3; ++k) options.g_over_c2[k] = p_.gravity[k] / (c0_ * c0_);
         const PairInput in = pair_input(particles, false);
         if (energies_.is_on()) {
             sums_->continuity(in, data(particles), DensityDiffusion::none, options);
             energies_.note_without_diffusion(state_.delta_rate);
         }
-        sums_->continuity(in, data(particles), p_.density_diffusion, options);
+        sums_->continuity(in, data(particles), diffusion(), options);
     });
     timed(kAdvance, [&] { compute_state(particles, dt, 0.5 * dt); });
     if (energies_.is_on()) energies_.count_diffusion(particles, state_, energy_setting(surroundings), dt);

@@ -242,6 +242,22 @@ TEST_CASE("Wcsph.BadNumbersFaultWithARemedy") {
     CHECK(scene.step().fault);  // may be stepped without harm
 }
 
+TEST_CASE("Wcsph.AChangeOfViscosityDoesNotTakePressureForABodyForce") {
+    // Pressures of +-10^4 Pa: accelerations of some 10^2 m/s^2, which as a body force over 2 m would ask for ten times
+    // the sound speed.
+    Scene scene = make_drop(2, 16);
+    scene.parameters.erase("sound_speed");
+    scene.parameters["reference_speed"] = 1.0;
+    scene.parameters["dual_time_step"] = false;
+    set_random_state(scene.particles, 1e4, 5);
+    REQUIRE_FALSE(scene.start().fault);
+    const double before = scene.step().dt;
+    REQUIRE_FALSE(scene.model->set_parameters({{"viscosity", 1e-6}}));
+    const double after = scene.step().dt;
+    CAPTURE(before, after);
+    CHECK(after > 0.5 * before);  // the largest speed, up to c0 here, may grow meanwhile
+}
+
 TEST_CASE("Wcsph.NoFluidIsNoHarm") {
     Scene scene = make_tank(2, 8);
     scene.particles = make_particles(2, {});
