@@ -87,6 +87,7 @@ class Ladders {
             if (one.ladder.empty() || !is_named(plan_.cases, one.name)) continue;
             for (const LadderOption& option : ladder_options(plan_.quick)) {
                 if (!plan_.model.empty() && option.model != plan_.model) continue;
+                if (repeats_default(one, option)) continue;
                 if (!climb(one, option)) return false;
             }
         }
@@ -94,6 +95,17 @@ class Ladders {
     }
 
   private:
+    // The default has one of the two forms of density diffusion, by the flow.
+    static bool repeats_default(const validation::Case& one, const LadderOption& option) {
+        const auto form = option.parameters.find("density_diffusion");
+        if (form == option.parameters.end()) return false;
+        const auto scene = validation::make_scene(one, {});
+        if (!scene) return false;
+        const auto free_surface = scene->parameters.find("free_surface");
+        const bool is_confined = free_surface != scene->parameters.end() && !std::get<bool>(free_surface->second);
+        return std::get<std::string>(form->second) == (is_confined ? "fourtakas" : "antuono");
+    }
+
     // One case and option, coarse to fine. False: out of budget.
     bool climb(const validation::Case& one, const LadderOption& option) {
         double last_wall = 0.0, last_resolution = 0.0;
@@ -166,7 +178,7 @@ std::vector<LadderOption> ladder_options(bool quick) {
     add("shifting", false, "false");
     add("dual_time_step", false, "false");
     add("density_diffusion", std::string("none"), "none");
-    add("density_diffusion", std::string("fourtakas"), "fourtakas");
+    for (const char* form : {"fourtakas", "antuono"}) add("density_diffusion", std::string(form), form);
     add("state_equation", std::string("tait"), "tait");
     add("artificial_viscosity", 0.02, "0.02");
     options.push_back({"default", "thesis"});

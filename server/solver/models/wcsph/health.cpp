@@ -54,6 +54,11 @@ std::string step_advice(const RunLimits& limits) {
     return {};
 }
 
+std::string gradient_advice(const RunLimits& limits) {
+    if (!limits.is_confined) return {};
+    return "where the fluid has a free surface, set free_surface to true and pressure_gradient to automatic; ";
+}
+
 std::string stiffness_advice(const RunLimits& limits) {
     if (limits.sound_speed_by_rule)
         return "set reference_speed to the largest speed expected: the fluid was made for a tenth of c0 = " +
@@ -92,11 +97,16 @@ std::string remedy_for(FaultKind kind, const RunLimits& limits) {
             return advice.empty() ? "enlarge the domain, or keep the fluid in by an object of role container"
                                   : advice + "else enlarge the domain";
         case FaultKind::density:
-            return advice + stiffness_advice(limits) + "; look for fluids that overlap or an object put into fluid";
+            return advice + gradient_advice(limits) + stiffness_advice(limits) +
+                   "; look for fluids that overlap or an object put into fluid";
         case FaultKind::speed:
             return advice + stiffness_advice(limits);
         case FaultKind::time_step:
-            return advice + "particles lie on one another: look for fluids that overlap or an object put into fluid";
+            return advice + "the criterion \"" + std::string(limits.limit) + "\" leaves steps of " +
+                   number(limits.next_step) +
+                   " s: look for gravity, body_force, viscosity, surface_tension, sound_speed or cfl out of "
+                   "proportion, "
+                   "fluids that overlap, an object put into fluid";
         case FaultKind::non_finite:
             break;
     }
@@ -116,6 +126,7 @@ std::optional<Fault> check_health(const Particles& particles, const Extremes& ex
     const bool is_chosen = limits.limit != "advective" && limits.limit != "body force";
     if (!is_chosen && limits.next_step < kLeastStep * limits.acoustic_step)
         return fault(FaultKind::time_step, extremes.fastest_changing);
+    if (limits.next_step < kLeastSeconds) return fault(FaultKind::time_step, extremes.fastest_changing);
     return std::nullopt;
 }
 

@@ -4,7 +4,9 @@
 //
 //   speed: |v| > 2 c0. Pressure can no longer answer: c0 is meant to be ten times the largest speed.
 //
-//   time_step: dt < 1e-3 cfl h/c0. Forces 10^5 times those of a violent impact leave nothing to simulate.
+//   time_step: dt < 1e-3 cfl h/c0. Forces 10^5 times those of a violent impact leave nothing to simulate. Where the
+//   scene chose the step (viscosity, tension, sound speed): dt < 1e-15 s. In a femtosecond no fluid is a continuum, and
+//   the run would never end.
 //
 // For comparison: the water hammer of a flat impact is delta = |v|/c0, 0.1 where c0 is ten times the speed.
 #pragma once
@@ -22,6 +24,7 @@ namespace headrace::solver {
 inline constexpr double kMostDeviation = 0.5;  // [1]
 inline constexpr double kMostMach = 2.0;       // [1]
 inline constexpr double kLeastStep = 1e-3;     // [1] of the acoustic step at rest
+inline constexpr double kLeastSeconds = 1e-15;
 
 struct Extremes {
     double max_acceleration{};  // [m/s^2] of the finite ones
@@ -42,6 +45,7 @@ struct RunLimits {
     double recommended_cfl{};        // [1] the default
     double fixed_step{};             // [s]; 0: none
     bool sound_speed_by_rule{true};  // else the scene gave it
+    bool is_confined{};              // the pressure force is the one for fluid without free surface
 };
 
 // The first criterion violated, in the order above. Precondition: all x and v are finite.

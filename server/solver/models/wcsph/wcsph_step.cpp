@@ -305,8 +305,8 @@ StepChoice Wcsph::limit_step(double dt_before) const {
 }
 
 RunLimits Wcsph::run_limits() const {
-    return {c0_,    p_.cfl * h() / c0_,    next_.dt,     next_.criterion,
-            p_.cfl, WcsphParameters{}.cfl, p_.time_step, p_.sound_speed == 0.0};
+    return {c0_,          p_.cfl * h() / c0_,    next_.dt,     next_.criterion, p_.cfl, WcsphParameters{}.cfl,
+            p_.time_step, p_.sound_speed == 0.0, !is_adjoint()};
 }
 
 // Speeds, the next step's length, what went wrong.

@@ -23,7 +23,7 @@ Particles three_particles() {
     return particles;
 }
 
-const RunLimits kLimits{20.0, 1e-3, 5e-3, "acoustic", 0.6, 0.6, 0.0, true};
+const RunLimits kLimits{20.0, 1e-3, 5e-3, "acoustic", 0.6, 0.6, 0.0, true, false};
 
 std::optional<Fault> check(const Particles& particles, const std::vector<double>& delta,
                            const RunLimits& limits = kLimits) {
@@ -76,6 +76,25 @@ TEST_CASE("WcsphHealth.AStepMayCollapseOnlyByItsOwnForces") {
     CHECK(fault->particle == 12);
     limits.limit = "viscous";  // the scene's own choice
     CHECK_FALSE(check(particles, {0.0, 0.0, 0.0}, limits).has_value());
+}
+
+TEST_CASE("WcsphHealth.AStepThatNeverEndsIsAFaultWhoeverChoseIt") {
+    RunLimits limits = kLimits;
+    limits.limit = "viscous";
+    limits.next_step = 0.9e-15;
+    const auto fault = check(three_particles(), {0.0, 0.0, 0.0}, limits);
+    REQUIRE(fault.has_value());
+    CHECK(fault->kind == FaultKind::time_step);
+    CHECK(fault->remedy.find("\"viscous\" leaves steps of 9e-16 s") != std::string::npos);
+    limits.next_step = 1.1e-15;
+    CHECK_FALSE(check(three_particles(), {0.0, 0.0, 0.0}, limits).has_value());
+}
+
+TEST_CASE("WcsphHealth.ConfinedFormsAreNamedWhereTheyBreakAFreeSurface") {
+    RunLimits limits = kLimits;
+    CHECK(remedy_for(FaultKind::density, limits).find("free_surface") == std::string::npos);
+    limits.is_confined = true;
+    CHECK(remedy_for(FaultKind::density, limits).find("set free_surface to true") != std::string::npos);
 }
 
 TEST_CASE("WcsphHealth.RemediesFitTheCause") {
