@@ -3,11 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "client/arguments.h"
 #include "client/endpoints.h"
 #include "client/interrupt.h"
 #include "client/text.h"
+#include "proto/suggest.h"
 #include "proto/version.h"
 
 namespace headrace::client {
@@ -24,7 +27,7 @@ Exit status:
   1  anything else                         6  a file cannot be read or written
   2  wrong usage, or a bad request         7  the simulation has faulted
   3  no server answers, or it is foreign   8  timed out
-  4  there is no such thing              130  interrupted (Ctrl-C); files are complete))";
+  4  there is no such thing              130  interrupted (Ctrl-C); files are complete)";
 
 int exit_status(const proto::Status& outcome) {
     if (is_interrupted()) {
@@ -35,6 +38,22 @@ int exit_status(const proto::Status& outcome) {
     if (outcome) return 0;
     std::cerr << error_line(outcome.error()) << "\n";
     return proto::error_info(outcome.error().code).exit_code;
+}
+
+proto::Error parse_error(const CLI::ParseError& error) {
+    return usage_error(error.what(), "", "headrace --help, or headrace COMMAND --help");
+}
+
+// No subcommand was recognised: there was none, or an unknown word stands in its place.
+proto::Error command_error(const CLI::App& app) {
+    constexpr const char* kRemedy = "headrace --help lists the commands";
+    const std::vector<std::string> words = app.remaining();
+    if (words.empty()) return usage_error("a command is missing", "", kRemedy);
+    std::vector<std::string> known;
+    for (const CLI::App* subcommand : app.get_subcommands(nullptr)) known.push_back(subcommand->get_name());
+    const std::string hint = proto::suggest(words.front(), known);
+    return usage_error("there is no command \"" + words.front() + "\"", "",
+                       hint.starts_with("did you mean") ? hint : kRemedy);
 }
 
 }  // namespace
@@ -62,8 +81,10 @@ int run_command_line(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::Success& wanted) {
         return app.exit(wanted);  // --help, --version
+    } catch (const CLI::RequiredError& error) {
+        return exit_status(app.get_subcommands().empty() ? command_error(app) : parse_error(error));
     } catch (const CLI::ParseError& error) {
-        return exit_status(usage_error(error.what(), "", "headrace --help, or headrace COMMAND --help"));
+        return exit_status(parse_error(error));
     }
 
     watch_interrupts();

@@ -65,7 +65,8 @@ proto::Status plan(const Globals& globals, const SceneChoice& choice) {
         }
         print_line(loaded_line(*loaded));
         for (const proto::PlanStage& stage : status->plan)
-            print_line(stage.stage + ": " + (stage.active ? "" : "skipped, ") + stage.reason);
+            print_line(stage.stage + (stage.active ? (stage.reason.empty() ? "" : ": ") : ": skipped, ") +
+                       stage.reason);
         return proto::Done{};
     });
 }
@@ -87,7 +88,7 @@ void print_status(const proto::SimStatusReply& status) {
     print_line(line);
     if (status.diagnostics)
         print_line("max speed " + number(status.diagnostics->max_speed) + " m/s, kinetic energy " +
-                   number(status.diagnostics->kinetic_energy) + " J, density mean " +
+                   number(status.diagnostics->kinetic_energy) + " J (2D: J/m), density mean " +
                    number(status.diagnostics->mean_density) + ", max " + number(status.diagnostics->max_density) +
                    " kg/m^3");
     if (status.job)

@@ -135,7 +135,7 @@ void Reader::unsigned_value(std::uint64_t& x, const About& about) {
 
 void Reader::value(bool& x, const About& about) {
     if (error_) return;
-    if (!node().is_boolean()) return wrong_kind("true or false");
+    if (!node().is_boolean()) return wrong_kind(about.only_true ? "true" : "true or false");
     x = node().get<bool>();
     if (about.only_true && !x) fail("must be true, got false", "leave the member out instead");
 }

@@ -41,6 +41,10 @@ inline double shifting_need(double dynamic_pressure, double p) {
     return dynamic_pressure / (dynamic_pressure + std::max(p, 0.0) + 1e-300);
 }
 
+// Where a surface is in sight and its tension outweighs the flow (sigma/dx > rho v^2), it keeps the particles' order by
+// itself, and shifting only stirs and stiffens it: no shifting below this eigenvalue.
+inline constexpr double kSurfaceInSight = 0.99;
+
 struct ShiftingLimits {
     double surface_eigenvalue{0.9};  // [1] below: a free surface is in reach, tangential shifting only
     double spray_eigenvalue{0.45};   // [1] below: no shifting

@@ -85,6 +85,7 @@ GeometryOptions Wcsph::geometry_options(bool shifts) const {
     options.dynamic_pressure = p_.rest_density * max_speed_ * max_speed_;
     options.noise = kShiftNoise * next_.dt;
     options.limits.longest = p_.shifting_limit * spacing_;
+    if (p_.surface_tension > options.dynamic_pressure * spacing_) options.limits.spray_eigenvalue = kSurfaceInSight;
     if (!p_.free_surface) options.limits.surface_eigenvalue = options.limits.spray_eigenvalue = -1.0;
     return options;
 }
