@@ -85,6 +85,26 @@ void WallField::stop_at(std::size_t object, const Vec3& n, const Vec3& x, Vec3& 
     for (int k = 0; k < dimensions_; ++k) v[k] -= std::min(into, 0.0) * n[k];
 }
 
+// Looks around x, ever further, along the axes and the diagonals. Where solids lie on each other the nearest surface
+// may be the seam between them: from one solid into the next and back, for ever.
+bool WallField::find_free_place(Vec3& x) const {
+    constexpr double kFirst = 0.0625, kLast = 8.0;  // [spacings]
+    const int up = dimensions_ == 3 ? 1 : 0;
+    for (double way = kFirst * spacing_; way <= kLast * spacing_; way *= 2.0) {
+        for (int k = -up; k <= up; ++k) {
+            for (int j = -1; j <= 1; ++j) {
+                for (int i = -1; i <= 1; ++i) {
+                    const Vec3 there{x[0] + i * way, x[1] + j * way, x[2] + k * way};
+                    if (walls_.distance_to_any(there) <= 0.0) continue;
+                    x = there;
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
 bool WallField::put_back(Index id, Vec3& x, Vec3& v, double dt) const {
     constexpr int kMostSurfaces = 4;  // a corner of three, and one more
     bool is_moved = false;
@@ -100,11 +120,18 @@ bool WallField::put_back(Index id, Vec3& x, Vec3& v, double dt) const {
             is_moved = true;
         }
     }
-    for (int turn = 0; turn < kMostSurfaces; ++turn) {
+    const Vec3 inside = x;
+    for (int turn = 0; turn <= kMostSurfaces; ++turn) {
         std::size_t object = 0;
         Vec3 n{};
         const double distance = walls_.distance_to_any(x, &object, &n);
         if (distance >= 0.0) break;
+        if (turn == kMostSurfaces) {
+            x = inside;
+            find_free_place(x);
+            for (int k = 0; k < dimensions_; ++k) v[k] = walls_.velocity(object, x)[k];
+            break;
+        }
         const double way = kSurfaceSkin * spacing_ * skin_share(id, turn) - distance;
         for (int k = 0; k < dimensions_; ++k) x[k] += way * n[k];
         stop_at(object, n, x, v);

@@ -43,6 +43,7 @@ class WallField {
   private:
     void evaluate_gravity(const Surroundings& surroundings, double t, const Vec3& gravity);
     bool put_back(Index id, Vec3& x, Vec3& v, double dt) const;
+    bool find_free_place(Vec3& x) const;
     void stop_at(std::size_t object, const Vec3& n, const Vec3& x, Vec3& v) const;
 
     int dimensions_;
