@@ -1,65 +1,95 @@
-// Eight doubles side by side: the number type of the vectorised pair loops. Formulas are templates over the number
-// type, so the same text serves one pair (double: tests, sim.inspect) and eight at a time (Lanes).
+// Several numbers side by side: the number type of the vectorised pair loops. Formulas are templates over the number
+// type, so the same text serves one pair (double: tests, sim.inspect) and a vector of pairs.
 //
-// Always eight, on every instruction set: the compiler splits the operations where vectors are shorter, so the order
-// of summation does not depend on the machine.
+// Only operators that every instruction set has: the loops that use them are compiled for each, and these are inlined
+// into them. What needs an instruction of its own (square root, loads that repeat) is in pairs/lane_loads-inl.h.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #define HEADRACE_ALWAYS_INLINE [[gnu::always_inline]] inline
 
 namespace headrace::solver {
 
-inline constexpr std::size_t kLanes = 8;
+// S: float or double; N: a power of two.
+template <class S, std::size_t N>
+struct Lanes {
+    using Scalar = S;
+    using Vector [[gnu::vector_size(sizeof(S) * N)]] = S;
+    static constexpr std::size_t kCount = N;
 
-using Lanes [[gnu::vector_size(64)]] = double;
+    Vector v{};
 
-HEADRACE_ALWAYS_INLINE Lanes load_lanes(const double* aligned) {
-    using LanesInMemory [[gnu::vector_size(64), gnu::may_alias]] = double;
-    return *reinterpret_cast<const LanesInMemory*>(aligned);
-}
+    Lanes() = default;
+    HEADRACE_ALWAYS_INLINE Lanes(const Vector& vector) : v(vector) {}
+    // The same number in every lane.
+    HEADRACE_ALWAYS_INLINE Lanes(double a) : v(Vector{} + static_cast<S>(a)) {}
 
-// Lane 0 first: one order for every machine.
-HEADRACE_ALWAYS_INLINE double sum_lanes(const Lanes& a) {
-    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
-}
-HEADRACE_ALWAYS_INLINE double sum_lanes(double a) {
-    return a;
-}
+    HEADRACE_ALWAYS_INLINE S operator[](std::size_t k) const { return v[k]; }
 
-HEADRACE_ALWAYS_INLINE Lanes square_root(const Lanes& a) {
-    Lanes root;
-    for (std::size_t k = 0; k < kLanes; ++k) root[k] = std::sqrt(a[k]);
-    return root;
-}
-HEADRACE_ALWAYS_INLINE double square_root(double a) {
-    return std::sqrt(a);
-}
+    HEADRACE_ALWAYS_INLINE Lanes& operator+=(const Lanes& b) {
+        v += b.v;
+        return *this;
+    }
+    HEADRACE_ALWAYS_INLINE Lanes& operator-=(const Lanes& b) {
+        v -= b.v;
+        return *this;
+    }
+    HEADRACE_ALWAYS_INLINE Lanes& operator*=(const Lanes& b) {
+        v *= b.v;
+        return *this;
+    }
+    HEADRACE_ALWAYS_INLINE friend Lanes operator-(const Lanes& a) { return Lanes(Vector(-a.v)); }
+    HEADRACE_ALWAYS_INLINE friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(Vector(a.v + b.v)); }
+    HEADRACE_ALWAYS_INLINE friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(Vector(a.v - b.v)); }
+    HEADRACE_ALWAYS_INLINE friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(Vector(a.v * b.v)); }
+    HEADRACE_ALWAYS_INLINE friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(Vector(a.v / b.v)); }
+    HEADRACE_ALWAYS_INLINE friend auto operator<(const Lanes& a, const Lanes& b) { return a.v < b.v; }
+};
 
-// where(a < b, x, y): x where the condition holds, else y.
-template <class T>
-HEADRACE_ALWAYS_INLINE T less_or(const T& a, const T& b, const T& x, const T& y) {
+// less_or(a, b, x, y): x where a < b, else y.
+HEADRACE_ALWAYS_INLINE double less_or(double a, double b, double x, double y) {
     return a < b ? x : y;
+}
+template <class S, std::size_t N>
+HEADRACE_ALWAYS_INLINE Lanes<S, N> less_or(const Lanes<S, N>& a, const Lanes<S, N>& b, const Lanes<S, N>& x,
+                                           const Lanes<S, N>& y) {
+    return Lanes<S, N>(a.v < b.v ? x.v : y.v);
 }
 template <class T>
 HEADRACE_ALWAYS_INLINE T maximum(const T& a, const T& b) {
-    return a < b ? b : a;
+    return less_or(a, b, b, a);
 }
 template <class T>
 HEADRACE_ALWAYS_INLINE T minimum(const T& a, const T& b) {
-    return b < a ? b : a;
+    return less_or(b, a, b, a);
 }
 template <class T>
 HEADRACE_ALWAYS_INLINE T positive_or_zero(const T& a) {
-    return a > 0.0 ? a : T{};
+    return less_or(T(0.0), a, a, T(0.0));
+}
+
+template <class T>
+struct ScalarOf {
+    using type = T;
+};
+template <class S, std::size_t N>
+struct ScalarOf<Lanes<S, N>> {
+    using type = S;
+};
+
+// The smallest normal number: keeps 0/0 out of a quotient whose numerator is 0 too.
+template <class T>
+HEADRACE_ALWAYS_INLINE T tiny() {
+    return T(static_cast<double>(std::numeric_limits<typename ScalarOf<T>::type>::min()));
 }
 
 // The same number in every lane.
 template <class T>
 HEADRACE_ALWAYS_INLINE T splat(double a) {
-    return T{} + a;
+    return T(a);
 }
 
 }  // namespace headrace::solver

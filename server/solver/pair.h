@@ -1,5 +1,5 @@
 // One pair of particles, or eight pairs side by side: what every term of the accurate models starts from.
-// T: double or Lanes. Index i is the particle that sums, j its neighbour.
+// T: double or Lanes<S, N>. Index i is the particle that sums, j its neighbour.
 #pragma once
 
 #include <array>
@@ -17,6 +17,13 @@ struct Pair {
     T r2;                 // [m^2]
     T r;                  // [m]
     T V_j;                // [m^3] (2D: m^2); 0 where the pair does not interact
+};
+
+// Fields of a point, loaded.
+template <class T, std::size_t N>
+struct FieldsOf {
+    std::array<T, N == 0 ? 1 : N> field;
+    HEADRACE_ALWAYS_INLINE const T& operator()(std::size_t f) const { return field[f]; }
 };
 
 template <int D, class T>

@@ -4,7 +4,7 @@
 //
 // F(r) = W'(r)/r <= 0, so that grad_i W_ij = F x_ij: no division by r. dF_dr is its derivative. All are 0 at and
 // beyond R.
-// T: double or Lanes.
+// T: double or Lanes<S, N>.
 #pragma once
 
 #include <numbers>

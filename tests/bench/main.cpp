@@ -8,6 +8,7 @@
 #include "tests/bench/accuracy.h"
 #include "tests/bench/report.h"
 #include "tests/bench/stability.h"
+#include "tests/bench/strategies.h"
 
 namespace bench = headrace::bench;
 
@@ -67,10 +68,12 @@ int main(int argc, char** argv) {
     headrace::solver::restart_with_short_spin(argv);  // as the server does
     if (argc > 1 && std::string(argv[1]) == "accuracy") return bench::run_accuracy(argc - 1, argv + 1);
     if (argc > 1 && std::string(argv[1]) == "stability") return bench::run_stability(argc - 1, argv + 1);
+    if (argc > 1 && std::string(argv[1]) == "strategies") return bench::run_strategies(argc - 1, argv + 1);
     CLI::App app{
         "Times the solver over the presets. One line per case and thread count.\n"
         "`headrace_bench accuracy` measures run time against error on the validation cases, `headrace_bench\n"
-        "stability` runs the scenes that try to break a model: see their --help."};
+        "stability` runs the scenes that try to break a model, `headrace_bench strategies` compares ways to sum\n"
+        "over pairs: see their --help."};
     Options options;
     define_options(app, options);
     CLI11_PARSE(app, argc, argv);

@@ -160,6 +160,7 @@ bool Walls::update_places() {
 
 // Lists the active dummies in the order of their ids.
 void Walls::collect() {
+    ++version_;
     particles_.id.clear();
     for (std::size_t id = 0; id < dummies_.size(); ++id) {
         if (active_[id]) particles_.id.push_back(static_cast<Index>(id));

@@ -57,6 +57,8 @@ class Walls final : public Visibility {
 
     const WallParticles& particles() const { return particles_; }
     WallParticles& particles() { return particles_; }  // for sorting: any order is fine
+    // Another number when there are others, in the order in which they were made.
+    std::uint64_t version() const { return version_; }
 
     bool has_moving() const;
     bool has_thin() const;
@@ -104,6 +106,7 @@ class Walls final : public Visibility {
     std::vector<char> active_;           // of each dummy
     std::vector<Index> changeable_;      // ids
     WallParticles particles_;            // the active ones
+    std::uint64_t version_{};
 };
 
 }  // namespace headrace::solver

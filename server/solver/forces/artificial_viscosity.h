@@ -20,7 +20,7 @@ template <int D, class T>
 HEADRACE_ALWAYS_INLINE T approach_factor(const Pair<D, T>& pair, const T& F, const VectorOf<D, T>& v_ij,
                                          const Symmetric<D, T>& mean_strain) {
     const T approach = dot<D, T>(v_ij, pair.x_ij) - dot<D, T>(pair.x_ij, mean_strain * pair.x_ij);
-    return pair.V_j * F * approach / maximum(pair.r2, splat<T>(1e-200));
+    return pair.V_j * F * approach / maximum(pair.r2, tiny<T>());
 }
 
 }  // namespace headrace::solver

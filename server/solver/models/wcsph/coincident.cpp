@@ -1,5 +1,7 @@
 #include "server/solver/models/wcsph/coincident.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "server/solver/forces/separation.h"
@@ -28,27 +30,30 @@ void move_apart(Particles& particles, Index i, Index j, double way, std::uint64_
 
 }  // namespace
 
-std::uint64_t separate_coincident(Particles& particles, const CellGrid& grid, double spacing, std::uint64_t step) {
-    constexpr std::size_t kCellBlock = 64;
-    std::vector<std::uint64_t> counts((grid.cells() + kCellBlock - 1) / kCellBlock);
-    parallel_for(grid.cells(), kCellBlock, [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t c = first; c < last; ++c) {
-            const Run cell = grid.cell(c);
-            for (Index i = cell.begin; i < cell.end; ++i) {
-                for (Index j = i + 1; j < cell.end; ++j) {
-                    if (!is_one_place(particles, i, j, 1e-3 * spacing)) continue;
-                    ++counts[first / kCellBlock];
-                    if (particles.dimensions == 2)
-                        move_apart<2>(particles, i, j, kCoincidentWay * spacing, step);
-                    else
-                        move_apart<3>(particles, i, j, kCoincidentWay * spacing, step);
-                }
+std::uint64_t separate_coincident(Particles& particles, double spacing, std::uint64_t step) {
+    constexpr std::size_t kLookAhead = 8;  // a crowd in one place thins out over the sorts to come
+    const std::size_t count = particles.size();
+    std::vector<std::vector<std::pair<Index, Index>>> found((count + kParticleBlock - 1) / kParticleBlock);
+    parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t j = i + 1; j < std::min(i + kLookAhead, count); ++j) {
+                const auto one = static_cast<Index>(i), other = static_cast<Index>(j);
+                if (is_one_place(particles, one, other, 1e-3 * spacing))
+                    found[begin / kParticleBlock].emplace_back(one, other);
             }
         }
     });
-    std::uint64_t count = 0;
-    for (const std::uint64_t part : counts) count += part;
-    return count;
+    std::uint64_t pairs = 0;
+    for (const auto& block : found) {
+        for (const auto& [i, j] : block) {
+            ++pairs;
+            if (particles.dimensions == 2)
+                move_apart<2>(particles, i, j, kCoincidentWay * spacing, step);
+            else
+                move_apart<3>(particles, i, j, kCoincidentWay * spacing, step);
+        }
+    }
+    return pairs;
 }
 
 }  // namespace headrace::solver

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "server/solver/neighbours.h"
 #include "server/solver/particles.h"
 
 namespace headrace::solver {
@@ -12,7 +11,8 @@ namespace headrace::solver {
 inline constexpr double kCoincidentWay = 0.01;  // [spacings] that each is moved
 
 // Moves each pair closer than a thousandth of a spacing apart, in opposite directions drawn from its ids and the step.
-// Looks at pairs within a cell of the grid, whose order the particles are in. Returns the number of pairs.
-std::uint64_t separate_coincident(Particles& particles, const CellGrid& grid, double spacing, std::uint64_t step);
+// Looks at particles that are close in storage: those in one place are in one bin of the order. Returns the number of
+// pairs.
+std::uint64_t separate_coincident(Particles& particles, double spacing, std::uint64_t step);
 
 }  // namespace headrace::solver

@@ -83,10 +83,10 @@ EnergyBudget EnergyAccount::budget(const StoredEnergy& stored) const {
     return budget;
 }
 
-void EnergyAccount::permute(const CellGrid& grid, std::vector<double>& scratch) {
+void EnergyAccount::permute(const ClusterOrder& order, std::vector<double>& scratch) {
     for (VectorField* field : {&body_, &viscosity_, &artificial_}) {
         for (std::vector<double>& component : *field) {
-            if (!component.empty()) grid.permute(component, scratch);
+            if (!component.empty()) order.permute(component, scratch);
         }
     }
 }

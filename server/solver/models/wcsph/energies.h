@@ -56,7 +56,7 @@ class EnergyAccount {
     EnergyBudget budget(const StoredEnergy& stored) const;
 
     // After the sort of the particles.
-    void permute(const CellGrid& grid, std::vector<double>& scratch);
+    void permute(const ClusterOrder& order, std::vector<double>& scratch);
 
     // Slow forces. `a`: sum so far, with gravity and body force; then with viscosity, too.
     void note_body_force(const VectorField& a, const EnergySetting& setting, int dimensions);

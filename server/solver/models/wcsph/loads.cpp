@@ -1,11 +1,9 @@
 #include "server/solver/models/wcsph/loads.h"
 
-#include "server/solver/parallel.h"
+#include <cmath>
 
 namespace headrace::solver {
 namespace {
-
-constexpr std::size_t kWallCellBlock = 16;  // cells a thread takes at a time
 
 Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -13,7 +11,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 
 // Adds the force of the pair: fluid particle i, displaced to `x` by its periods, and dummy w.
 template <int D>
-void accumulate_pair(const PairInput& in, const WcsphView& view, const WcsphSums& sums, const TermOptions& options,
+void accumulate_pair(const LoadInput& in, const WcsphView& view, const WcsphSums& sums, const TermOptions& options,
                      Index w, Index i, const Vec3& x, WallForce& force) {
     std::array<double, D> x_ij;
     for (int k = 0; k < D; ++k) x_ij[k] = x[k] - view.walls.x[k][w];
@@ -40,31 +38,26 @@ void accumulate_pair(const PairInput& in, const WcsphView& view, const WcsphSums
 }
 
 template <int D>
-std::vector<WallForce> compute_forces(const PairInput& in, const WcsphView& view, const WcsphSums& sums,
+std::vector<WallForce> compute_forces(const LoadInput& in, const WcsphView& view, const WcsphSums& sums,
                                       const TermOptions& options) {
     std::vector<WallForce> forces(view.walls.size());
-    const CellGrid& grid = *in.walls.grid;
-    parallel_for(grid.cells(), kWallCellBlock, [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t c = first; c < last; ++c) {
-            const Neighbourhood near = in.fluid.grid->around(grid.coordinates(c));
-            const Run cell = grid.cell(c);
-            for (int r = 0; r < near.runs; ++r) {
-                const Run& run = near.run[r];
-                for (Index i = run.begin; i < run.end; ++i) {
-                    Vec3 x{};
-                    for (int k = 0; k < D; ++k) x[k] = view.particles.x[k][i] + run.image[k] * in.period[k];
-                    for (Index w = cell.begin; w < cell.end; ++w)
-                        accumulate_pair<D>(in, view, sums, options, w, i, x, forces[w]);
-                }
+    in.neighbours->for_each_wall_pair([&](Index w, Index i) {
+        Vec3 x{};
+        for (int k = 0; k < D; ++k) {
+            x[k] = view.particles.x[k][i];
+            if (in.domain.periodic[k]) {
+                const double period = in.domain.max[k] - in.domain.min[k];
+                x[k] -= period * std::round((x[k] - view.walls.x[k][w]) / period);
             }
         }
+        accumulate_pair<D>(in, view, sums, options, w, i, x, forces[w]);
     });
     return forces;
 }
 
 }  // namespace
 
-std::vector<WallForce> compute_wall_forces(const PairInput& in, const WcsphView& view, const WcsphSums& sums,
+std::vector<WallForce> compute_wall_forces(const LoadInput& in, const WcsphView& view, const WcsphSums& sums,
                                            const TermOptions& options) {
     if (view.walls.size() == 0 || view.particles.size() == 0) return std::vector<WallForce>(view.walls.size());
     return view.particles.dimensions == 2 ? compute_forces<2>(in, view, sums, options)

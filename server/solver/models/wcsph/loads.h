@@ -17,8 +17,15 @@ struct WallForce {
     Vec3 torque{};  // [N m] (2D: N) of both about the origin
 };
 
-// In the dummies' order. `in`: its centres are the walls.
-std::vector<WallForce> compute_wall_forces(const PairInput& in, const WcsphView& view, const WcsphSums& sums,
+struct LoadInput {
+    const PairNeighbours* neighbours{};
+    const Domain& domain;
+    double support{};                // [m]
+    const Visibility* thin_walls{};  // null without thin panels
+};
+
+// In the dummies' order.
+std::vector<WallForce> compute_wall_forces(const LoadInput& in, const WcsphView& view, const WcsphSums& sums,
                                            const TermOptions& options);
 
 // Of the fluid on each object.

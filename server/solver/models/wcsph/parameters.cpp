@@ -123,6 +123,11 @@ const ChoiceRow<WallSuction> kSuction{
     {"wall_suction", "1", "May walls have negative pressure? automatic: only in confined flow."},
     &P::wall_suction,
     {"automatic", "allowed", "clamped"}};
+const ChoiceRow<Precision> kPrecision{
+    {"precision", "1",
+     "Arithmetic of the pair sums; automatic: single, but double where spacings are below 1e-6 m or above 1e6 m."},
+    &P::precision,
+    {"automatic", "single", "double"}};
 
 // visit(row) for each row of any kind.
 template <class Visit>
@@ -138,6 +143,7 @@ void for_each_row(Visit&& visit) {
     visit(kTension);
     visit(kSlip);
     visit(kSuction);
+    visit(kPrecision);
 }
 
 ParameterValue value_of(const NumberRow& row, const P& p) {

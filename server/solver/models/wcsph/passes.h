@@ -1,6 +1,8 @@
 // The passes of the wcsph model: which fields a loop reads, which terms it sums, what it writes. Formulas are in
-// forces/ and boundaries/; the loop is pair_loop.h.
+// forces/ and boundaries/; the loop is pairs/pair_sums-inl.h.
 #pragma once
+
+#include <algorithm>
 
 #include "server/solver/boundaries/wall_state.h"
 #include "server/solver/forces/artificial_viscosity.h"
@@ -12,7 +14,7 @@
 #include "server/solver/forces/separation.h"
 #include "server/solver/forces/shifting.h"
 #include "server/solver/models/wcsph/state.h"
-#include "server/solver/pair_loop.h"
+#include "server/solver/pair.h"
 
 namespace headrace::solver {
 
@@ -40,33 +42,19 @@ HEADRACE_ALWAYS_INLINE void write_matrix(MatrixField& field, std::size_t i, cons
     for (int k = 0; k < Symmetric<D>::kSize; ++k) field[k][i] = m.e[k];
 }
 
-template <std::size_t N>
-HEADRACE_ALWAYS_INLINE std::array<double, N> sum_lanes(const std::array<Lanes, N>& lanes) {
-    std::array<double, N> sums;
-    for (std::size_t k = 0; k < N; ++k) sums[k] = sum_lanes(lanes[k]);
-    return sums;
-}
-
-// Fields first..first+N-1 of the neighbours.
-template <int N, class Neighbour>
-HEADRACE_ALWAYS_INLINE std::array<Lanes, N> lanes_of(const Neighbour& neighbour, std::size_t first) {
-    std::array<Lanes, N> u;
-    for (int k = 0; k < N; ++k) u[k] = neighbour(first + k);
+// Fields first..first+N-1 of a point.
+template <class T, int N, class Point>
+HEADRACE_ALWAYS_INLINE std::array<T, N> fields_of(const Point& point, std::size_t first) {
+    std::array<T, N> u;
+    for (int k = 0; k < N; ++k) u[k] = point(first + static_cast<std::size_t>(k));
     return u;
 }
 
-template <int D>
-HEADRACE_ALWAYS_INLINE std::array<Lanes, D> minus(const std::array<double, D>& a, const std::array<Lanes, D>& b) {
-    std::array<Lanes, D> difference;
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE std::array<T, D> minus(const std::array<T, D>& a, const std::array<T, D>& b) {
+    std::array<T, D> difference;
     for (int k = 0; k < D; ++k) difference[k] = a[k] - b[k];
     return difference;
-}
-
-template <int D>
-HEADRACE_ALWAYS_INLINE Symmetric<D, Lanes> splat(const Symmetric<D>& m) {
-    Symmetric<D, Lanes> lanes;
-    for (int k = 0; k < Symmetric<D>::kSize; ++k) lanes.e[k] = splat<Lanes>(m.e[k]);
-    return lanes;
 }
 
 // What all passes see.
@@ -99,23 +87,22 @@ struct GeometryOptions {
 template <int D, class Kernel, bool HasGradients>
 struct GeometryPass {
     static constexpr bool kReadsWalls = true;
-    static constexpr std::size_t kFluidFields = HasGradients ? 1 + D : 1;
+    static constexpr std::size_t kFluidFields = HasGradients ? 1 + D : 1, kCentreFields = kFluidFields;  // delta, v
     static constexpr std::size_t kWallFields = HasGradients ? 2 + 2 * D : 1;  // delta, v, n, no_slip
 
     Kernel kernel;
     PassData data;
     GeometryOptions options;
 
-    struct Self {
-        double delta;
-        std::array<double, D> v;
-    };
+    template <class T>
     struct Sums {
-        Symmetric<D, Lanes> M;
-        std::array<Lanes, D> grad_1{}, shift{}, grad_delta{};
-        std::array<std::array<Lanes, D>, D> grad_v{};
+        Symmetric<D, T> M;
+        std::array<T, D> grad_1{}, grad_delta{};
+        std::array<T, D> shift{};
+        std::array<std::array<T, D>, D> grad_v{};
     };
 
+    std::array<const double*, kCentreFields> centre_fields() const { return fluid_fields(); }
     std::array<const double*, kFluidFields> fluid_fields() const {
         std::array<const double*, kFluidFields> fields;
         fields[0] = data.state.delta.data();
@@ -137,24 +124,22 @@ struct GeometryPass {
         return fields;
     }
 
-    HEADRACE_ALWAYS_INLINE Self load(Index i) const { return {data.state.delta[i], vector_at<D>(data.particles.v, i)}; }
-
-    template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, Lanes>& pair, const Neighbour& neighbour,
-                                     Sums& sums) const {
-        const Lanes F = kernel.F(pair.r);
-        accumulate_moment<D, Lanes>(pair, F, sums.M);
-        const std::array<Lanes, D> grad = scaled<D, Lanes>(pair.V_j * F, pair.x_ij);
-        add_to<D, Lanes>(sums.grad_1, grad);
-        add_to<D, Lanes>(sums.grad_delta, scaled<D, Lanes>(neighbour(0) - self.delta, grad));
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, T>& pair, const Neighbour& neighbour,
+                                     Sums<T>& sums) const {
+        const T F = kernel.F(pair.r);
+        accumulate_moment<D, T>(pair, F, sums.M);
+        const std::array<T, D> grad = scaled<D, T>(pair.V_j * F, pair.x_ij);
+        add_to<D, T>(sums.grad_1, grad);
+        add_to<D, T>(sums.grad_delta, scaled<D, T>(neighbour(0) - self(0), grad));
         if constexpr (HasGradients) {
-            const Lanes W = kernel.W(pair.r) * (1.0 / options.W_dx);
-            add_to<D, Lanes>(sums.shift, scaled<D, Lanes>(shifting_factor<D, Lanes>(pair, F, W), pair.x_ij));
-            std::array<Lanes, D> v_ij = minus<D>(self.v, lanes_of<D>(neighbour, 1));
+            const T W = kernel.W(pair.r) * (1.0 / options.W_dx);
+            add_to<D, T>(sums.shift, scaled<D, T>(shifting_factor<D, T>(pair, F, W), pair.x_ij));
+            std::array<T, D> v_ij = minus<D, T>(fields_of<T, D>(self, 1), fields_of<T, D>(neighbour, 1));
             if constexpr (IsWall) {
                 // A slippery wall says nothing about the tangential velocity.
-                const std::array<Lanes, D> n = lanes_of<D>(neighbour, 1 + D);
-                const Lanes slides = 1.0 - neighbour(1 + 2 * D), normal = dot<D, Lanes>(v_ij, n);
+                const std::array<T, D> n = fields_of<T, D>(neighbour, 1 + D);
+                const T slides = 1.0 - neighbour(1 + 2 * D), normal = dot<D, T>(v_ij, n);
                 for (int k = 0; k < D; ++k) v_ij[k] += slides * (normal * n[k] - v_ij[k]);
             }
             for (int k = 0; k < D; ++k) {
@@ -164,24 +149,23 @@ struct GeometryPass {
     }
 
     // Row k: the corrected gradient of v_k [1/s]; 0 where too little is around to tell.
-    static std::array<std::array<double, D>, D> velocity_gradient(const Sums& sums, const Symmetric<D>& L,
+    static std::array<std::array<double, D>, D> velocity_gradient(const Sums<double>& sums, const Symmetric<D>& L,
                                                                   double eigenvalue) {
         std::array<std::array<double, D>, D> grad_v{};
         if (eigenvalue < kGradientEigenvalue) return grad_v;
-        for (int k = 0; k < D; ++k) grad_v[k] = L * sum_lanes(sums.grad_v[k]);
+        for (int k = 0; k < D; ++k) grad_v[k] = L * sums.grad_v[k];
         return grad_v;
     }
 
-    HEADRACE_ALWAYS_INLINE void store(Index i, const Self&, const Sums& sums) const {
+    void store(Index i, const Sums<double>& sums) const {
         WcsphState& state = data.state;
-        Symmetric<D> M;
-        M.e = sum_lanes(sums.M.e);
+        const Symmetric<D>& M = sums.M;
         const double eigenvalue = smallest_eigenvalue(M);
         const Symmetric<D> B = correction_matrix<D>(M, eigenvalue, options.correction_threshold);
-        const std::array<double, D> normal = sum_lanes(sums.grad_1);
+        const std::array<double, D>& normal = sums.grad_1;
         // Gradients may be corrected far nearer to a free surface than forces.
         const Symmetric<D> L = correction_matrix<D>(M, eigenvalue, kGradientEigenvalue);
-        const std::array<double, D> grad_delta = L * sum_lanes(sums.grad_delta);
+        const std::array<double, D> grad_delta = L * sums.grad_delta;
         state.min_eigenvalue[i] = eigenvalue;
         write_matrix<D>(state.B, i, B);
         write_vector<D>(state.normal, i, normal);
@@ -192,7 +176,7 @@ struct GeometryPass {
             for (const auto& row : grad_v) grad2 += dot<D, double>(row, row);
             const double U = (options.shift_speed + options.strain_length * std::sqrt(grad2)) *
                              shifting_need(options.dynamic_pressure, data.particles.p[i]);
-            std::array<double, D> dx = sum_lanes(sums.shift);
+            std::array<double, D> dx = sums.shift;
             for (double& component : dx) component *= -options.shift_factor * U;
             if (options.noise > 0.0 && eigenvalue > options.limits.surface_eigenvalue) {
                 const std::array<double, D> e =
@@ -229,20 +213,24 @@ struct ContinuityPass {
     static constexpr bool kReadsWalls = true;
     static constexpr std::size_t kFluidFields = D + (kIsDiffusive ? 1 : 0) + (kIsAntuono ? D : 0);
     static constexpr std::size_t kWallFields = D;
+    static constexpr std::size_t kCentreFields = kFluidFields + symmetric_size(D);  // the fluid's, and B
 
     Kernel kernel;
     PassData data;
     ContinuityOptions options;
 
-    struct Self {
-        double delta;
-        std::array<double, D> v, grad_delta;
-        Symmetric<D, Lanes> B;
-    };
+    template <class T>
     struct Sums {
-        Lanes divergence{}, diffusion{};
+        T divergence{}, diffusion{};
     };
 
+    std::array<const double*, kCentreFields> centre_fields() const {
+        std::array<const double*, kCentreFields> fields;
+        const auto shared = fluid_fields();
+        std::copy(shared.begin(), shared.end(), fields.begin());
+        for (int k = 0; k < symmetric_size(D); ++k) fields[kFluidFields + k] = data.state.B[k].data();
+        return fields;
+    }
     std::array<const double*, kFluidFields> fluid_fields() const {
         std::array<const double*, kFluidFields> fields;
         for (int k = 0; k < D; ++k) {
@@ -258,34 +246,31 @@ struct ContinuityPass {
         return fields;
     }
 
-    HEADRACE_ALWAYS_INLINE Self load(Index i) const {
-        return {data.state.delta[i], vector_at<D>(data.particles.v, i), vector_at<D>(data.state.grad_delta, i),
-                splat<D>(matrix_at<D>(data.state.B, i))};
-    }
-
-    template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, Lanes>& pair, const Neighbour& neighbour,
-                                     Sums& sums) const {
-        const Lanes F = kernel.F(pair.r);
-        const std::array<Lanes, D> v_ij = minus<D>(self.v, lanes_of<D>(neighbour, 0));
-        sums.divergence += velocity_divergence<D, Lanes>(pair.V_j, F, self.B * pair.x_ij, v_ij);
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, T>& pair, const Neighbour& neighbour,
+                                     Sums<T>& sums) const {
+        const T F = kernel.F(pair.r);
+        const std::array<T, D> v_ij = minus<D, T>(fields_of<T, D>(self, 0), fields_of<T, D>(neighbour, 0));
+        Symmetric<D, T> B;
+        B.e = fields_of<T, symmetric_size(D)>(self, kFluidFields);
+        sums.divergence += velocity_divergence<D, T>(pair.V_j, F, B * pair.x_ij, v_ij);
         if constexpr (kIsDiffusive && !IsWall) {
-            const Lanes delta_ji = neighbour(D) - self.delta;
+            const T delta_ji = neighbour(D) - self(D);
             if constexpr (kIsAntuono) {
-                std::array<Lanes, D> sum_grad = lanes_of<D>(neighbour, D + 1);
-                for (int k = 0; k < D; ++k) sum_grad[k] += self.grad_delta[k];
-                sums.diffusion += antuono_diffusion<D, Lanes>(pair, F, delta_ji, sum_grad);
+                std::array<T, D> sum_grad = fields_of<T, D>(self, D + 1);
+                add_to<D, T>(sum_grad, fields_of<T, D>(neighbour, D + 1));
+                sums.diffusion += antuono_diffusion<D, T>(pair, F, delta_ji, sum_grad);
             } else {
-                Lanes delta_H{};
+                T delta_H(0.0);
                 for (int k = 0; k < D; ++k) delta_H -= options.g_over_c2[k] * pair.x_ij[k];
-                sums.diffusion += plain_diffusion<D, Lanes>(pair, F, delta_ji, delta_H);
+                sums.diffusion += plain_diffusion<D, T>(pair, F, delta_ji, delta_H);
             }
         }
     }
 
-    HEADRACE_ALWAYS_INLINE void store(Index i, const Self& self, const Sums& sums) const {
-        double rate = -(1.0 + self.delta) * sum_lanes(sums.divergence);
-        if constexpr (kIsDiffusive) rate += options.diffusion * sum_lanes(sums.diffusion);
+    void store(Index i, const Sums<double>& sums) const {
+        double rate = -(1.0 + data.state.delta[i]) * sums.divergence;
+        if constexpr (kIsDiffusive) rate += options.diffusion * sums.diffusion;
         data.state.delta_rate[i] = rate;
     }
 };
@@ -305,21 +290,24 @@ struct PressurePass {
     static constexpr std::size_t kPressureFields = IsAdjoint ? symmetric_size(D) : 1;
     static constexpr std::size_t kFluidFields = kPressureFields + (HasAlpha ? D + symmetric_size(D) : 0);
     static constexpr std::size_t kWallFields = 1;
+    static constexpr std::size_t kCentreFields = kFluidFields - kPressureFields;  // v, strain
 
     Kernel kernel;
     PassData data;
     PressureOptions options;
 
-    struct Self {
-        double p, rho;
-        std::array<double, D> v;
-        Symmetric<D> strain;
-    };
+    template <class T>
     struct Sums {
-        PressureSums<D, Lanes> fluid, walls;
-        std::array<Lanes, D> artificial{};
+        PressureSums<D, T> fluid, walls;
+        std::array<T, D> artificial{};
     };
 
+    std::array<const double*, kCentreFields> centre_fields() const {
+        std::array<const double*, kCentreFields> fields;
+        const auto shared = fluid_fields();
+        std::copy(shared.begin() + kPressureFields, shared.end(), fields.begin());
+        return fields;
+    }
     std::array<const double*, kFluidFields> fluid_fields() const {
         std::array<const double*, kFluidFields> fields;
         if constexpr (IsAdjoint) {
@@ -335,57 +323,52 @@ struct PressurePass {
     }
     std::array<const double*, kWallFields> wall_fields() const { return {data.wall_state.p.data()}; }
 
-    HEADRACE_ALWAYS_INLINE Self load(Index i) const {
-        return {data.particles.p[i], data.particles.rho[i], vector_at<D>(data.particles.v, i),
-                matrix_at<D>(data.state.strain, i)};
-    }
-
-    template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, Lanes>& pair, const Neighbour& neighbour,
-                                     Sums& sums) const {
-        const Lanes F = kernel.F(pair.r);
-        const std::array<Lanes, D> grad = scaled<D, Lanes>(pair.V_j * F, pair.x_ij);
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, T>& pair, const Neighbour& neighbour,
+                                     Sums<T>& sums) const {
+        const T F = kernel.F(pair.r);
+        const std::array<T, D> grad = scaled<D, T>(pair.V_j * F, pair.x_ij);
         if constexpr (IsWall) {
-            accumulate_difference<D, Lanes>(grad, neighbour(0), sums.walls);
+            accumulate_difference<D, T>(grad, neighbour(0), sums.walls);
         } else {
             if constexpr (IsAdjoint) {
-                Symmetric<D, Lanes> pB_j;
-                pB_j.e = lanes_of<static_cast<int>(kPressureFields)>(neighbour, 0);
-                accumulate_adjoint<D, Lanes>(grad, pB_j, sums.fluid);
+                Symmetric<D, T> pB_j;
+                pB_j.e = fields_of<T, symmetric_size(D)>(neighbour, 0);
+                accumulate_adjoint<D, T>(grad, pB_j, sums.fluid);
             } else {
-                accumulate_difference<D, Lanes>(grad, neighbour(0), sums.fluid);
+                accumulate_difference<D, T>(grad, neighbour(0), sums.fluid);
             }
             if constexpr (HasAlpha) {
-                const std::array<Lanes, D> v_ij = minus<D>(self.v, lanes_of<D>(neighbour, kPressureFields));
-                Symmetric<D, Lanes> mean_strain;
+                const std::array<T, D> v_ij =
+                    minus<D, T>(fields_of<T, D>(self, 0), fields_of<T, D>(neighbour, kPressureFields));
+                Symmetric<D, T> mean_strain;
                 for (int k = 0; k < symmetric_size(D); ++k)
-                    mean_strain.e[k] = 0.5 * (self.strain.e[k] + neighbour(kPressureFields + D + k));
-                add_to<D, Lanes>(sums.artificial,
-                                 scaled<D, Lanes>(approach_factor<D, Lanes>(pair, F, v_ij, mean_strain), pair.x_ij));
+                    mean_strain.e[k] = 0.5 * (self(D + k) + neighbour(kPressureFields + D + k));
+                add_to<D, T>(sums.artificial,
+                             scaled<D, T>(approach_factor<D, T>(pair, F, v_ij, mean_strain), pair.x_ij));
             }
         }
     }
 
-    HEADRACE_ALWAYS_INLINE void store(Index i, const Self& self, const Sums& sums) const {
-        PressureSums<D, double> total{sum_lanes(sums.fluid.grad_1), sum_lanes(sums.fluid.pB_grad)};
-        const std::array<double, D> wall_1 = sum_lanes(sums.walls.grad_1), wall_p = sum_lanes(sums.walls.pB_grad);
+    void store(Index i, const Sums<double>& sums) const {
+        const double p = data.particles.p[i], rho = data.particles.rho[i];
+        PressureSums<D, double> total = sums.fluid;
         const Symmetric<D> B = matrix_at<D>(data.state.B, i);
-        const bool is_controlled = IsAdjoint && options.controls_tension && self.p < 0.0 &&
+        const bool is_controlled = IsAdjoint && options.controls_tension && p < 0.0 &&
                                    data.state.min_eigenvalue[i] > options.tension_eigenvalue;
         // Where walls do not suck, controlled tension would push the particle off the wall, the more the further it
         // goes: it ends at the fluid.
-        if (!is_controlled || options.walls_suck) add_to<D, double>(total.grad_1, wall_1);
+        if (!is_controlled || options.walls_suck) add_to<D, double>(total.grad_1, sums.walls.grad_1);
         // A wall particle has B = 1: with the fluid particle's, walls would feed energy into still water.
-        add_to<D, double>(total.pB_grad, wall_p);
+        add_to<D, double>(total.pB_grad, sums.walls.pB_grad);
         std::array<double, D> a;
         if constexpr (IsAdjoint) {
-            a = adjoint_acceleration<D>(total, matrix_at<D>(data.state.pB, i), is_controlled ? -1.0 : 1.0, self.rho);
+            a = adjoint_acceleration<D>(total, matrix_at<D>(data.state.pB, i), is_controlled ? -1.0 : 1.0, rho);
         } else {
-            a = difference_acceleration<D>(total, self.p, B, self.rho);
+            a = difference_acceleration<D>(total, p, B, rho);
         }
         if constexpr (HasAlpha) {
-            const std::array<double, D> artificial = sum_lanes(sums.artificial);
-            for (int k = 0; k < D; ++k) a[k] += options.artificial_viscosity / self.rho * artificial[k];
+            for (int k = 0; k < D; ++k) a[k] += options.artificial_viscosity / rho * sums.artificial[k];
         }
         for (int k = 0; k < D; ++k) data.particles.a[k][i] = a[k] + data.state.a_slow[k][i];
     }
@@ -403,21 +386,19 @@ template <int D, class Kernel, bool IsMorris>
 struct ViscosityPass {
     static constexpr bool kReadsWalls = true;
     static constexpr std::size_t kMatrix = symmetric_size(D);
-    static constexpr std::size_t kFluidFields = D + kMatrix;
-    static constexpr std::size_t kWallFields = 2 * D + 2;  // v, n, depth, no_slip
+    static constexpr std::size_t kFluidFields = D + kMatrix, kCentreFields = kFluidFields;  // v, B
+    static constexpr std::size_t kWallFields = 2 * D + 2;                                   // v, n, depth, no_slip
 
     Kernel kernel;
     PassData data;
     ViscosityOptions options;
 
-    struct Self {
-        std::array<double, D> v;
-        Symmetric<D> B;
-    };
+    template <class T>
     struct Sums {
-        std::array<Lanes, D> a{};
+        std::array<T, D> a{};
     };
 
+    std::array<const double*, kCentreFields> centre_fields() const { return fluid_fields(); }
     std::array<const double*, kFluidFields> fluid_fields() const {
         std::array<const double*, kFluidFields> fields;
         for (int k = 0; k < D; ++k) fields[k] = data.particles.v[k].data();
@@ -435,38 +416,33 @@ struct ViscosityPass {
         return fields;
     }
 
-    HEADRACE_ALWAYS_INLINE Self load(Index i) const {
-        return {vector_at<D>(data.particles.v, i), matrix_at<D>(data.state.B, i)};
-    }
-
-    template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, Lanes>& pair, const Neighbour& neighbour,
-                                     Sums& sums) const {
-        Symmetric<D, Lanes> B = splat<D>(self.B);
-        std::array<Lanes, D> v_ij;
-        Lanes weight = splat<Lanes>(1.0);
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, T>& pair, const Neighbour& neighbour,
+                                     Sums<T>& sums) const {
+        Symmetric<D, T> B;
+        B.e = fields_of<T, symmetric_size(D)>(self, D);
+        const std::array<T, D> v_i = fields_of<T, D>(self, 0), v_j = fields_of<T, D>(neighbour, 0);
+        std::array<T, D> v_ij;
+        T weight(1.0);
         if constexpr (IsWall) {
-            std::array<Lanes, D> v_i;
-            for (int k = 0; k < D; ++k) v_i[k] = splat<Lanes>(self.v[k]);
-            v_ij = no_slip_difference<D, Lanes>(pair, lanes_of<D>(neighbour, D), neighbour(2 * D), v_i,
-                                                lanes_of<D>(neighbour, 0), options.least_distance);
+            v_ij = no_slip_difference<D, T>(pair, fields_of<T, D>(neighbour, D), neighbour(2 * D), v_i, v_j,
+                                            options.least_distance);
             weight = neighbour(2 * D + 1);
         } else {
-            v_ij = minus<D>(self.v, lanes_of<D>(neighbour, 0));
+            v_ij = minus<D, T>(v_i, v_j);
             for (std::size_t k = 0; k < kMatrix; ++k) B.e[k] = 0.5 * (B.e[k] + neighbour(D + k));
         }
-        const Lanes F = weight * corrected_factor<D, Lanes>(pair, kernel.F(pair.r), B);
+        const T F = weight * corrected_factor<D, T>(pair, kernel.F(pair.r), B);
         // At a no-slip wall both forms are Morris's: the wall has a velocity, not only an approach.
         if constexpr (IsMorris || IsWall) {
-            accumulate_morris<D, Lanes>(pair, F, v_ij, sums.a);
+            accumulate_morris<D, T>(pair, F, v_ij, sums.a);
         } else {
-            accumulate_monaghan_gingold<D, Lanes>(pair, F, v_ij, sums.a);
+            accumulate_monaghan_gingold<D, T>(pair, F, v_ij, sums.a);
         }
     }
 
-    HEADRACE_ALWAYS_INLINE void store(Index i, const Self&, const Sums& sums) const {
-        const std::array<double, D> a = sum_lanes(sums.a);
-        for (int k = 0; k < D; ++k) data.state.a_slow[k][i] += options.mu / data.particles.rho[i] * a[k];
+    void store(Index i, const Sums<double>& sums) const {
+        for (int k = 0; k < D; ++k) data.state.a_slow[k][i] += options.mu / data.particles.rho[i] * sums.a[k];
     }
 };
 
@@ -481,41 +457,38 @@ template <int D, class Kernel>
 struct WallPressurePass {
     static constexpr bool kReadsWalls = false;
     static constexpr std::size_t kFluidFields = 2;  // p, rho
-    static constexpr std::size_t kWallFields = 0;
+    static constexpr std::size_t kWallFields = 0, kCentreFields = 0;
 
     Kernel kernel;
     PassData data;
     WallPressureOptions options;
 
-    struct Self {};
+    template <class T>
     struct Sums {
-        Lanes W{}, p_W{};
-        std::array<Lanes, D> rho_x_W{};
+        T W{}, p_W{};
+        std::array<T, D> rho_x_W{};
     };
 
+    std::array<const double*, 0> centre_fields() const { return {}; }
     std::array<const double*, kFluidFields> fluid_fields() const {
         return {data.particles.p.data(), data.particles.rho.data()};
     }
     std::array<const double*, kWallFields> wall_fields() const { return {}; }
-    HEADRACE_ALWAYS_INLINE Self load(Index) const { return {}; }
-
-    template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, Lanes>& pair, const Neighbour& neighbour,
-                                     Sums& sums) const {
-        const Lanes W = pair.V_j * kernel.W(pair.r);
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, T>& pair, const Neighbour& neighbour,
+                                     Sums<T>& sums) const {
+        const T W = pair.V_j * kernel.W(pair.r);
         sums.W += W;
         sums.p_W += W * neighbour(0);
-        add_to<D, Lanes>(sums.rho_x_W, scaled<D, Lanes>(W * neighbour(1), pair.x_ij));
+        add_to<D, T>(sums.rho_x_W, scaled<D, T>(W * neighbour(1), pair.x_ij));
     }
 
-    HEADRACE_ALWAYS_INLINE void store(Index w, const Self&, const Sums& sums) const {
-        const double W = sum_lanes(sums.W);
+    void store(Index w, const Sums<double>& sums) const {
         double p = 0.0;
-        if (W > 1e-12) {
-            p = sum_lanes(sums.p_W);
-            const std::array<double, D> rho_x_W = sum_lanes(sums.rho_x_W);
-            for (int k = 0; k < D; ++k) p += data.wall_state.g[k][w] * rho_x_W[k];
-            p = std::max(p / W, options.p_min);
+        if (sums.W > 1e-12) {
+            p = sums.p_W;
+            for (int k = 0; k < D; ++k) p += data.wall_state.g[k][w] * sums.rho_x_W[k];
+            p = std::max(p / sums.W, options.p_min);
         }
         data.wall_state.p[w] = p;
         data.wall_state.delta[w] = p / options.rho0_c2;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "server/solver/boundaries/wall_particles.h"
-#include "server/solver/neighbours.h"
 #include "server/solver/particles.h"
 
 namespace headrace::solver {
@@ -35,9 +34,8 @@ struct WcsphState {
     std::vector<double> delta_rate;  // [1/s]
 };
 
-// The dummy particles in the order of their own grid, and what they have been given by the fluid.
+// What the dummy particles have been given by the fluid, in their order.
 struct WallState {
-    CellGrid grid;
     std::vector<double> no_slip;  // 1 or 0
     VectorField g;                // [m/s^2] of gravity and body force there, less the wall's own acceleration
     std::vector<double> p;        // [Pa] extrapolated

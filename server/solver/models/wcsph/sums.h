@@ -1,12 +1,12 @@
-// The pair sums of the wcsph model behind one interface: which kernel, dimension, terms and instruction set a loop is
-// made of is chosen here, once, never inside it.
+// The pair sums of the wcsph model behind one interface: which kernel, dimension, precision, terms and instruction set
+// a loop is made of is chosen here, once, never inside it.
 #pragma once
 
 #include <memory>
 
-#include "server/solver/isa.h"
 #include "server/solver/models/wcsph/passes.h"
 #include "server/solver/models/wcsph/tension_passes.h"
+#include "server/solver/pairs/pair_neighbours.h"
 #include "server/solver/smoothing_kernels.h"
 
 namespace headrace::solver {
@@ -19,22 +19,23 @@ class WcsphSums {
     virtual double F(double r) const = 0;      // [m^-(D+2)]
     virtual double dF_dr(double r) const = 0;  // [m^-(D+3)]
 
-    virtual void geometry(const PairInput& in, const PassData& data, const GeometryOptions& options) = 0;
-    virtual void continuity(const PairInput& in, const PassData& data, DensityDiffusion diffusion,
-                            const ContinuityOptions& options) = 0;
-    virtual void pressure(const PairInput& in, const PassData& data, bool is_adjoint,
-                          const PressureOptions& options) = 0;
-    virtual void viscosity(const PairInput& in, const PassData& data, bool is_morris,
-                           const ViscosityOptions& options) = 0;
-    virtual void continuum_tension(const PairInput& in, const PassData& data, const TensionOptions& options) = 0;
-    virtual void thesis_tension(const PairInput& in, const PassData& data, const TensionOptions& options) = 0;
-    virtual void wall_pressure(const PairInput& in, const PassData& data, const WallPressureOptions& options) = 0;
+    // Over the neighbours given at the start, which must cover the places of now.
+    virtual void geometry(const PassData& data, const GeometryOptions& options) = 0;
+    virtual void continuity(const PassData& data, DensityDiffusion diffusion, const ContinuityOptions& options) = 0;
+    virtual void pressure(const PassData& data, bool is_adjoint, const PressureOptions& options) = 0;
+    virtual void viscosity(const PassData& data, bool is_morris, const ViscosityOptions& options) = 0;
+    virtual void continuum_tension(const PassData& data, const TensionOptions& options) = 0;
+    virtual void thesis_tension(const PassData& data, const TensionOptions& options) = 0;
+    virtual void wall_pressure(const PassData& data, const WallPressureOptions& options) = 0;
 };
 
-std::unique_ptr<WcsphSums> make_wcsph_sums(int dimensions, KernelKind kernel, double support, Isa isa);
+struct SumsChoice {
+    int dimensions{3};
+    KernelKind kernel{KernelKind::wendland_c2};
+    double support{};  // [m]
+};
 
-// The two makers behind it, a file each: the default kernel, and any.
-std::unique_ptr<WcsphSums> make_wendland_sums(int dimensions, double support, Isa isa);
-std::unique_ptr<WcsphSums> make_any_kernel_sums(int dimensions, KernelKind kernel, double support, Isa isa);
+// In the best instruction set of the machine that Highway is not told to leave out.
+std::unique_ptr<WcsphSums> make_wcsph_sums(const SumsChoice& choice, const PairNeighbours& neighbours);
 
 }  // namespace headrace::solver

@@ -18,31 +18,29 @@ struct TensionOptions {
 template <int D, class Kernel>
 struct SurfaceStressPass {
     static constexpr bool kReadsWalls = true;
-    static constexpr std::size_t kFluidFields = 0, kWallFields = 0;
+    static constexpr std::size_t kCentreFields = 0, kFluidFields = 0, kWallFields = 0;
 
     Kernel kernel;
     PassData data;
     TensionOptions options;
 
-    struct Self {};
+    template <class T>
     struct Sums {
-        std::array<Lanes, D> n{};
-        Lanes c{};
+        std::array<T, D> n{};
+        T c{};
     };
 
+    std::array<const double*, 0> centre_fields() const { return {}; }
     std::array<const double*, 0> fluid_fields() const { return {}; }
     std::array<const double*, 0> wall_fields() const { return {}; }
-    HEADRACE_ALWAYS_INLINE Self load(Index) const { return {}; }
-
-    template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, Lanes>& pair, const Neighbour&, Sums& sums) const {
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, T>& pair, const Neighbour&, Sums<T>& sums) const {
         sums.c += pair.V_j * kernel.W(pair.r);
-        add_to<D, Lanes>(sums.n, scaled<D, Lanes>(pair.V_j * kernel.F(pair.r), pair.x_ij));
+        add_to<D, T>(sums.n, scaled<D, T>(pair.V_j * kernel.F(pair.r), pair.x_ij));
     }
 
-    HEADRACE_ALWAYS_INLINE void store(Index i, const Self&, const Sums& sums) const {
-        write_matrix<D>(data.state.surface_stress, i,
-                        surface_stress<D>(sum_lanes(sums.n), sum_lanes(sums.c), options.flat.n));
+    void store(Index i, const Sums<double>& sums) const {
+        write_matrix<D>(data.state.surface_stress, i, surface_stress<D>(sums.n, sums.c, options.flat.n));
     }
 };
 
@@ -50,40 +48,39 @@ struct SurfaceStressPass {
 template <int D>
 struct ContinuumTensionPass {
     static constexpr bool kReadsWalls = true;
-    static constexpr std::size_t kFluidFields = symmetric_size(D), kWallFields = 0;
+    static constexpr std::size_t kCentreFields = 0, kFluidFields = symmetric_size(D), kWallFields = 0;
 
     TensionKernel<D> kernel;
     PassData data;
     TensionOptions options;
 
-    struct Self {};
+    template <class T>
     struct Sums {
-        std::array<Lanes, D> grad_1{}, S_grad{};
+        std::array<T, D> grad_1{}, S_grad{};
     };
 
+    std::array<const double*, 0> centre_fields() const { return {}; }
     std::array<const double*, kFluidFields> fluid_fields() const {
         std::array<const double*, kFluidFields> fields;
         for (std::size_t k = 0; k < kFluidFields; ++k) fields[k] = data.state.surface_stress[k].data();
         return fields;
     }
     std::array<const double*, 0> wall_fields() const { return {}; }
-    HEADRACE_ALWAYS_INLINE Self load(Index) const { return {}; }
-
-    template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, Lanes>& pair, const Neighbour& neighbour,
-                                     Sums& sums) const {
-        const std::array<Lanes, D> grad = scaled<D, Lanes>(pair.V_j * kernel.F(pair.r2), pair.x_ij);
-        add_to<D, Lanes>(sums.grad_1, IsWall ? scaled<D, Lanes>(splat<Lanes>(2.0), grad) : grad);
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, T>& pair, const Neighbour& neighbour,
+                                     Sums<T>& sums) const {
+        const std::array<T, D> grad = scaled<D, T>(pair.V_j * kernel.F(pair.r2), pair.x_ij);
+        add_to<D, T>(sums.grad_1, IsWall ? scaled<D, T>(T(2.0), grad) : grad);
         if constexpr (!IsWall) {
-            Symmetric<D, Lanes> S_j;
-            S_j.e = lanes_of<static_cast<int>(kFluidFields)>(neighbour, 0);
-            add_to<D, Lanes>(sums.S_grad, S_j * grad);
+            Symmetric<D, T> S_j;
+            S_j.e = fields_of<T, symmetric_size(D)>(neighbour, 0);
+            add_to<D, T>(sums.S_grad, S_j * grad);
         }
     }
 
-    HEADRACE_ALWAYS_INLINE void store(Index i, const Self&, const Sums& sums) const {
-        std::array<double, D> f = matrix_at<D>(data.state.surface_stress, i) * sum_lanes(sums.grad_1);
-        add_to<D, double>(f, sum_lanes(sums.S_grad));
+    void store(Index i, const Sums<double>& sums) const {
+        std::array<double, D> f = matrix_at<D>(data.state.surface_stress, i) * sums.grad_1;
+        add_to<D, double>(f, sums.S_grad);
         const double factor = 2.0 * options.sigma / (options.flat.C * data.particles.rho[i]);
         for (int k = 0; k < D; ++k) data.state.a_slow[k][i] += factor * f[k];
     }
@@ -93,34 +90,32 @@ struct ContinuumTensionPass {
 template <int D, class Kernel>
 struct ThesisTensionPass {
     static constexpr bool kReadsWalls = true;
-    static constexpr std::size_t kFluidFields = 0, kWallFields = 0;
+    static constexpr std::size_t kCentreFields = 0, kFluidFields = 0, kWallFields = 0;
 
     Kernel kernel;
     PassData data;
     TensionOptions options;
 
-    struct Self {};
+    template <class T>
     struct Sums {
-        std::array<Lanes, D> n{};
-        Lanes laplacian_c{};
+        std::array<T, D> n{};
+        T laplacian_c{};
     };
 
+    std::array<const double*, 0> centre_fields() const { return {}; }
     std::array<const double*, 0> fluid_fields() const { return {}; }
     std::array<const double*, 0> wall_fields() const { return {}; }
-    HEADRACE_ALWAYS_INLINE Self load(Index) const { return {}; }
-
-    template <bool IsWall, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, Lanes>& pair, const Neighbour&, Sums& sums) const {
-        const Lanes F = kernel.F(pair.r);
-        add_to<D, Lanes>(sums.n, scaled<D, Lanes>(pair.V_j * F, pair.x_ij));
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, T>& pair, const Neighbour&, Sums<T>& sums) const {
+        const T F = kernel.F(pair.r);
+        add_to<D, T>(sums.n, scaled<D, T>(pair.V_j * F, pair.x_ij));
         sums.laplacian_c += pair.V_j * (static_cast<double>(D) * F + pair.r * kernel.dF_dr(pair.r));
     }
 
-    HEADRACE_ALWAYS_INLINE void store(Index i, const Self&, const Sums& sums) const {
-        const std::array<double, D> n = sum_lanes(sums.n);
-        const double factor =
-            tension_factor(options.sigma, sum_lanes(sums.laplacian_c), dot<D, double>(n, n), options.threshold) /
-            data.particles.rho[i];
+    void store(Index i, const Sums<double>& sums) const {
+        const std::array<double, D> n = sums.n;
+        const double factor = tension_factor(options.sigma, sums.laplacian_c, dot<D, double>(n, n), options.threshold) /
+                              data.particles.rho[i];
         for (int k = 0; k < D; ++k) data.state.a_slow[k][i] += factor * n[k];
     }
 };

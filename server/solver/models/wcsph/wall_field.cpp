@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "server/solver/forces/separation.h"
 #include "server/solver/parallel.h"
@@ -22,28 +23,33 @@ double skin_share(Index id, int turn) {
 WallField::WallField(int dimensions, double spacing, double support)
     : dimensions_(dimensions), spacing_(spacing), walls_(dimensions, spacing, support) {}
 
-void WallField::place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options) {
+WallField::Change WallField::place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options) {
     if (anew) {
         walls_.rebuild(surroundings.objects, surroundings.domain, t);
     } else if (!walls_.move_to(t)) {
-        return;
+        return Change::none;
     }
     WallParticles& w = walls_.particles();
+    if (std::exchange(version_, walls_.version()) == walls_.version()) {
+        evaluate_gravity(surroundings, t, options.gravity);
+        return Change::moved;
+    }
     state_.no_slip.resize(w.size());
     state_.p.resize(w.size());
     state_.delta.resize(w.size());
-    if (w.size() == 0) return;
-    state_.grid.build(w.x, w.id, dimensions_, options.cell_side, &surroundings.domain);
-    for (std::vector<Index>* field : {&w.id, &w.object, &w.sheet}) state_.grid.permute(*field, scratch_id_);
+    if (w.size() == 0) return Change::reordered;
+    order_.build(w.x, w.id, dimensions_, spacing_, surroundings.domain);
+    for (std::vector<Index>* field : {&w.id, &w.object, &w.sheet}) order_.permute(*field, scratch_id_);
     for (VectorField* field : {&w.x, &w.v, &w.a, &w.n})
-        for (int k = 0; k < dimensions_; ++k) state_.grid.permute((*field)[k], scratch_);
-    state_.grid.permute(w.V, scratch_);
-    state_.grid.permute(w.depth, scratch_);
+        for (int k = 0; k < dimensions_; ++k) order_.permute((*field)[k], scratch_);
+    order_.permute(w.V, scratch_);
+    order_.permute(w.depth, scratch_);
     for (std::size_t k = 0; k < w.size(); ++k) {
         const Slip slip = surroundings.objects[w.object[k]].slip;
         state_.no_slip[k] = (slip == Slip::by_model ? options.slip : slip) == Slip::no_slip ? 1.0 : 0.0;
     }
     evaluate_gravity(surroundings, t, options.gravity);
+    return Change::reordered;
 }
 
 // What a fluid particle at the wall would feel, seen from the wall.
@@ -73,9 +79,8 @@ double WallField::max_speed() const {
     return std::sqrt(v2_max);
 }
 
-PointSet WallField::points() const {
-    if (is_empty()) return {};
-    return {&state_.grid, &walls_.particles().x, walls_.particles().V.data()};
+OrderedPoints WallField::points() const {
+    return {&order_, &walls_.particles().x, walls_.particles().V.data(), walls_.particles().size()};
 }
 
 void WallField::stop_at(std::size_t object, const Vec3& n, const Vec3& x, Vec3& v) const {
@@ -140,22 +145,22 @@ bool WallField::put_back(Index id, Vec3& x, Vec3& v, double dt) const {
     return is_moved;
 }
 
-std::uint64_t WallField::hold(Particles& particles, const CellGrid& grid, double dt) const {
-    constexpr std::size_t kCellBlock = 64;
+std::uint64_t WallField::hold(Particles& particles, const PairNeighbours& neighbours, double dt) const {
+    constexpr std::size_t kBlock = 256;
     if (is_empty()) return 0;
-    std::vector<std::uint64_t> counts((grid.cells() + kCellBlock - 1) / kCellBlock);
-    parallel_for(grid.cells(), kCellBlock, [&](std::size_t first, std::size_t last, int) {
+    const std::size_t clusters = (particles.size() + kClusterSize - 1) / kClusterSize;
+    std::vector<std::uint64_t> counts((clusters + kBlock - 1) / kBlock);
+    parallel_for(clusters, kBlock, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t c = first; c < last; ++c) {
-            if (state_.grid.around(grid.coordinates(c)).particles == 0) continue;
-            const Run cell = grid.cell(c);
-            for (Index i = cell.begin; i < cell.end; ++i) {
+            if (!neighbours.is_near_walls(c)) continue;
+            for (std::size_t i = c * kClusterSize; i < std::min((c + 1) * kClusterSize, particles.size()); ++i) {
                 Vec3 x{}, v{};
                 for (int k = 0; k < dimensions_; ++k) {
                     x[k] = particles.x[k][i];
                     v[k] = particles.v[k][i];
                 }
                 if (!put_back(particles.id[i], x, v, dt)) continue;
-                ++counts[first / kCellBlock];
+                ++counts[first / kBlock];
                 for (int k = 0; k < dimensions_; ++k) {
                     particles.x[k][i] = x[k];
                     particles.v[k][i] = v[k];

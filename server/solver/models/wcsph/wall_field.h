@@ -1,5 +1,5 @@
-// The walls as the wcsph model sees them: dummy particles sorted into cells of the fluid's division, what each stands
-// for, and the surface that no fluid passes.
+// The walls as the wcsph model sees them: dummy particles in the order of the pair engine, what each stands for, and
+// the surface that no fluid passes.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,11 @@
 #include "server/solver/boundaries/wall_particles.h"
 #include "server/solver/model.h"
 #include "server/solver/models/wcsph/state.h"
-#include "server/solver/pair_loop.h"
+#include "server/solver/pairs/pair_neighbours.h"
 
 namespace headrace::solver {
 
 struct WallOptions {
-    double cell_side{};          // [m] of the fluid's cells
     Vec3 gravity{};              // [m/s^2]
     Slip slip{Slip::free_slip};  // of objects that do not say
 };
@@ -21,8 +20,9 @@ class WallField {
   public:
     WallField(int dimensions, double spacing, double support);
 
+    enum class Change { none, moved, reordered };
     // Puts the walls where they are at time t: `anew` when objects have changed, else only what moves.
-    void place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options);
+    Change place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options);
 
     bool is_empty() const { return walls_.particles().size() == 0; }
     bool has_moving() const { return walls_.has_moving(); }
@@ -33,12 +33,13 @@ class WallField {
     const WallParticles& particles() const { return walls_.particles(); }
     WallState& state() { return state_; }
     const WallState& state() const { return state_; }
-    PointSet points() const;  // without grid when there are none
+    OrderedPoints points() const;
     const Visibility* thin_walls() const { return walls_.has_thin() ? &walls_ : nullptr; }
 
     // A particle that was driven into a solid (an impact faster than the walls' pressure can answer) is put back on its
     // surface and loses its velocity into it: nothing leaks. Rare in a sound run. Returns how many were.
-    std::uint64_t hold(Particles& particles, const CellGrid& grid, double dt) const;
+    // neighbours: tells which clusters of the fluid are near walls.
+    std::uint64_t hold(Particles& particles, const PairNeighbours& neighbours, double dt) const;
 
   private:
     void evaluate_gravity(const Surroundings& surroundings, double t, const Vec3& gravity);
@@ -50,6 +51,8 @@ class WallField {
     double spacing_;  // [m]
     Walls walls_;
     WallState state_;
+    ClusterOrder order_;
+    std::uint64_t version_{~std::uint64_t{0}};  // of the walls that are in order
     std::vector<double> scratch_;
     std::vector<Index> scratch_id_;
 };

@@ -54,8 +54,8 @@ void Wcsph::relax(Particles& particles, const Surroundings& surroundings, const 
     options.dynamic_pressure = 1.0;
     options.noise = 0.0;
     for (int turn = 0; turn < kMostTurns; ++turn) {
-        sort_all(particles, surroundings);
-        sums_->geometry(pair_input(particles, false), data(particles), options);
+        find_neighbours(particles, surroundings);
+        sums_->geometry(data(particles), options);
         double longest2 = 0.0;
         for (std::size_t i = 0; i < particles.size(); ++i) {
             if (!may_move[particles.id[i]]) continue;
@@ -83,7 +83,7 @@ StepReport Wcsph::initialise(Particles& particles, const Surroundings& surroundi
     sort_all(particles, surroundings);
     compute_geometry(particles, false);
     compute_slow_forces(particles, surroundings);
-    compute_pressure_forces(particles);
+    compute_pressure_forces(particles, surroundings);
     return finish(particles, surroundings, 0.0);
 }
 

@@ -15,6 +15,7 @@
 #include "server/solver/models/wcsph/inspection.h"
 #include "server/solver/models/wcsph/loads.h"
 #include "server/solver/models/wcsph/parameters.h"
+#include "server/solver/models/wcsph/sight_lines.h"
 #include "server/solver/models/wcsph/step_criteria.h"
 #include "server/solver/models/wcsph/sums.h"
 #include "server/solver/models/wcsph/wall_field.h"
@@ -36,9 +37,8 @@ class Wcsph final : public Model {
           overrides_(overrides),
           p_(make_wcsph_parameters(overrides)),
           support_(p_.support_over_spacing * spacing),
-          walls_(dimensions, spacing, support_),
-          sums_(make_wcsph_sums(dimensions, p_.kernel, support_, best_isa())) {
-        set_flat_surface();
+          walls_(dimensions, spacing, support_) {
+        make_sums();
     }
 
     std::string_view name() const override { return "wcsph"; }
@@ -59,6 +59,7 @@ class Wcsph final : public Model {
     ParameterMap parameters() const override;
     std::optional<ParameterError> set_parameters(const ParameterMap& values) override;
     std::vector<Stage> plan(const Surroundings& surroundings) const override;
+    std::string neighbours_reason() const;
     std::string walls_reason() const;
     std::optional<std::string> refuse_object(const CollisionObject&) const override { return std::nullopt; }
     std::optional<std::string> refuse_domain(const Domain& domain) const override;
@@ -72,7 +73,7 @@ class Wcsph final : public Model {
                                               Index id) const override;
 
   private:
-    static constexpr double kSkin = 0.5;  // [spacings] by which cells are wider than the support
+    static constexpr double kSkin = 0.3;  // [spacings] by which lists reach beyond the support
 
     template <class Work>
     void timed(WcsphStage stage, Work&& work) {
@@ -82,13 +83,14 @@ class Wcsph final : public Model {
     }
 
     double h() const { return 0.5 * support_; }
+    // Two particles see each other under one image only while a period is longer than twice this.
+    double period_unit() const { return support_ + kSkin * spacing_; }
     // alpha h c0 rho0 [Pa s], less what the fluid's own viscosity does for it: alpha h c0 equals a kinematic viscosity
     // alpha h c0/(2 (D + 2)).
     double artificial_viscosity() const {
         return std::max(
             0.0, p_.artificial_viscosity * h() * c0_ * p_.rest_density - 2.0 * (dimensions_ + 2.0) * p_.viscosity);
     }
-    double cell_side() const { return support_ + kSkin * spacing_; }
     bool is_adjoint() const {
         return p_.pressure_gradient == PressureGradient::adjoint || p_.pressure_gradient == PressureGradient::plain ||
                (p_.pressure_gradient == PressureGradient::automatic && p_.free_surface);
@@ -131,7 +133,7 @@ class Wcsph final : public Model {
     double stored_energy(const Particles& particles, const Surroundings& surroundings) const {
         return compute_stored_energy(particles, state_.delta, energy_setting(surroundings)).total();
     }
-    WallPower wall_power(const Particles& particles) const;
+    WallPower wall_power(const Particles& particles, const Surroundings& surroundings) const;
     void start_energies(Particles& particles, const Surroundings& surroundings);
     // What `work` changes in the stored energy counts as dissipated.
     template <class Work>
@@ -141,6 +143,8 @@ class Wcsph final : public Model {
         if (energies_.is_on()) energies_.count_loss(before, stored_energy(particles, surroundings));
     }
 
+    // Of the kernel, support and precision of now; the neighbours are not known yet.
+    void make_sums();
     void set_flat_surface() {
         const auto W = [this](double r) { return sums_->W(r); };
         flat_surface_ = dimensions_ == 2 ? make_flat_surface<2>(W, support_) : make_flat_surface<3>(W, support_);
@@ -152,18 +156,25 @@ class Wcsph final : public Model {
     void resize_state(std::size_t count);
     // Into particles.a, and nothing else: what the sound speed's rule reads.
     void put_body_force(Particles& particles, const Surroundings& surroundings);
+    void put_in_order(Particles& particles, const Surroundings& surroundings);
     void sort_all(Particles& particles, const Surroundings& surroundings);
+    void list_neighbours(const Particles& particles);
+    // Before any sums: the lists must cover the places of now. Sorts where they do not.
+    void find_neighbours(Particles& particles, const Surroundings& surroundings);
+    LoadInput load_input(const Surroundings& surroundings) const {
+        return {neighbours_.get(), surroundings.domain, support_, walls_.thin_walls()};
+    }
     void wrap(Particles& particles, const Domain& domain) const;
     void place_walls(const Surroundings& surroundings, double t, bool anew);
-    PairInput pair_input(const Particles& particles, bool centres_are_walls) const;
     GeometryOptions geometry_options(bool shifts) const;
     void compute_geometry(Particles& particles, bool shifts);
     void apply_shift(Particles& particles, double share);
     void compute_slow_forces(Particles& particles, const Surroundings& surroundings);
-    void compute_tension(Particles& particles);
+    void compute_tension(Particles& particles, const Surroundings& surroundings);
+    void look_ahead(const Particles& particles);
     void compute_state(Particles& particles, double dt, double drift);
-    void compute_pressure_forces(Particles& particles);
-    void compute_pressure(Particles& particles);
+    void compute_pressure_forces(Particles& particles, const Surroundings& surroundings);
+    void compute_pressure(Particles& particles, const Surroundings& surroundings);
     void kick_drift(Particles& particles, double kick, double drift);
     void acoustic_step(Particles& particles, const Surroundings& surroundings, double t, double dt);
     StepReport finish(Particles& particles, const Surroundings& surroundings, double dt);
@@ -177,8 +188,11 @@ class Wcsph final : public Model {
     StateEquation eos_;
     double c0_{};  // [m/s]
 
-    CellGrid grid_;
+    ClusterOrder order_;
     WallField walls_;
+    std::unique_ptr<PairNeighbours> neighbours_;
+    bool has_lists_{false};  // and in the order of now
+    SightLines among_fluid_, fluid_to_wall_, wall_to_fluid_;
     std::uint64_t objects_version_{~std::uint64_t{0}};
     WcsphState state_;
     Particles midpoint_;  // where the body force is evaluated; empty without one
@@ -195,7 +209,7 @@ class Wcsph final : public Model {
     std::uint64_t step_{};
     std::uint64_t put_back_{};   // particles put back on a wall's surface so far
     std::uint64_t separated_{};  // coincident pairs, so far
-    double moved_{};             // [m] at most, since the last sort
+    std::uint64_t sorts_{};      // so far
     StepChoice next_;
     std::array<double, kStageCount> seconds_{};
     std::vector<double> scratch_;

@@ -7,6 +7,7 @@
 
 #include "server/solver/models/wcsph/sound_speed.h"
 #include "server/solver/models/wcsph/wcsph_model.h"
+#include "server/solver/neighbours.h"
 #include "server/solver/parallel.h"
 
 namespace headrace::solver {
@@ -40,8 +41,7 @@ void Wcsph::use_new_parameters(Particles& particles, const Surroundings& surroun
     if (std::abs(factor - 1.0) > 1e-12)
         for (double& m : particles.m) m *= factor;
     support_ = p_.support_over_spacing * spacing_;
-    sums_ = make_wcsph_sums(dimensions_, p_.kernel, support_, best_isa());
-    set_flat_surface();
+    make_sums();
     walls_ = WallField(dimensions_, spacing_, support_);
     place_walls(surroundings, surroundings.time, true);
     const double c0_before = c0_;
@@ -61,12 +61,12 @@ void Wcsph::use_new_parameters(Particles& particles, const Surroundings& surroun
 
 std::optional<std::string> Wcsph::refuse_domain(const Domain& domain) const {
     for (int k = 0; k < dimensions_; ++k) {
-        if (!domain.periodic[k] || fits_period(domain.max[k] - domain.min[k], cell_side())) continue;
+        if (!domain.periodic[k] || fits_period(domain.max[k] - domain.min[k], period_unit())) continue;
         char text[160];
         std::snprintf(text, sizeof text,
-                      "the domain is periodic along axis %d but shorter than three cells of %.4g m; enlarge it or "
+                      "the domain is periodic along axis %d but shorter than three times %.4g m; enlarge it or "
                       "reduce the spacing",
-                      k, cell_side());
+                      k, period_unit());
         return text;
     }
     return std::nullopt;
@@ -83,6 +83,17 @@ std::optional<std::string> Wcsph::refuse_objects(std::span<const CollisionObject
     return std::nullopt;
 }
 
+std::string Wcsph::neighbours_reason() const {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "clusters of %zu, lists reused while they cover all pairs: sorted %llu times so far, %.0f listed a "
+                  "particle; %s precision; %llu coincident pairs moved apart so far",
+                  kClusterSize, static_cast<unsigned long long>(sorts_), neighbours_->neighbours_per_particle(),
+                  neighbours_->arithmetic() == Arithmetic::double_precision ? "double" : "single",
+                  static_cast<unsigned long long>(separated_));
+    return text;
+}
+
 std::string Wcsph::walls_reason() const {
     if (walls_.is_empty()) return "no objects";
     return "pressure and place of " + std::to_string(walls_.size()) + " wall particles; " + std::to_string(put_back_) +
@@ -90,10 +101,7 @@ std::string Wcsph::walls_reason() const {
 }
 
 std::vector<Stage> Wcsph::plan(const Surroundings&) const {
-    return {{"neighbours", true,
-             "cells, reused while nothing has moved out of them; " + std::to_string(separated_) +
-                 " coincident pairs moved apart so far",
-             seconds_[kNeighbours]},
+    return {{"neighbours", true, neighbours_reason(), seconds_[kNeighbours]},
             {"geometry", true, "moment matrices, free surface, shift", seconds_[kGeometry]},
             {"slow_forces", true,
              p_.surface_tension > 0.0 ? "gravity, body force, viscosity, surface tension"
@@ -122,7 +130,7 @@ std::vector<ObjectLoad> Wcsph::object_loads(const Particles& particles, const Su
     std::vector<ObjectLoad> loads(surroundings.objects.size());
     if (walls_.is_empty()) return loads;
     const std::vector<WallForce> forces =
-        compute_wall_forces(pair_input(particles, true), view(particles), *sums_, term_options());
+        compute_wall_forces(load_input(surroundings), view(particles), *sums_, term_options());
     const std::vector<ObjectLoad> known = sum_object_loads(walls_.particles(), forces, object_names_.size());
     for (std::size_t o = 0; o < loads.size(); ++o) {
         const auto found = std::find(object_names_.begin(), object_names_.end(), surroundings.objects[o].name);
@@ -132,17 +140,17 @@ std::vector<ObjectLoad> Wcsph::object_loads(const Particles& particles, const Su
 }
 
 // Walls at rest do no work: they are not asked.
-WallPower Wcsph::wall_power(const Particles& particles) const {
+WallPower Wcsph::wall_power(const Particles& particles, const Surroundings& surroundings) const {
     if (walls_.is_empty() || walls_.max_speed() == 0.0) return {};
-    return compute_wall_power(
-        walls_.particles(), compute_wall_forces(pair_input(particles, true), view(particles), *sums_, term_options()));
+    return compute_wall_power(walls_.particles(),
+                              compute_wall_forces(load_input(surroundings), view(particles), *sums_, term_options()));
 }
 
 // The first kick still has the acceleration of the step before, which nobody has taken apart: its parts are taken to
 // be those of the present state.
 void Wcsph::start_energies(Particles& particles, const Surroundings& surroundings) {
     const VectorField a = particles.a;
-    compute_pressure(particles);
+    compute_pressure(particles, surroundings);
     particles.a = a;
     energies_.start(stored_energy(particles, surroundings));
 }

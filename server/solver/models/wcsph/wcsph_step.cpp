@@ -29,11 +29,11 @@ void Wcsph::wrap(Particles& particles, const Domain& domain) const {
     }
 }
 
-void Wcsph::sort_all(Particles& particles, const Surroundings& surroundings) {
+void Wcsph::put_in_order(Particles& particles, const Surroundings& surroundings) {
     wrap(particles, surroundings.domain);
-    grid_.build(particles.x, particles.id, dimensions_, cell_side(), &surroundings.domain);
-    grid_.permute(particles.id, scratch_id_);
-    const auto permute = [&](std::vector<double>& field) { grid_.permute(field, scratch_); };
+    order_.build(particles.x, particles.id, dimensions_, spacing_, surroundings.domain);
+    order_.permute(particles.id, scratch_id_);
+    const auto permute = [&](std::vector<double>& field) { order_.permute(field, scratch_); };
     for (VectorField* field : {&particles.x, &particles.v, &particles.a, &state_.normal, &state_.grad_delta,
                                &state_.a_slow, &state_.dx, &state_.dv})
         for (int k = 0; k < dimensions_; ++k) permute((*field)[k]);
@@ -42,30 +42,68 @@ void Wcsph::sort_all(Particles& particles, const Surroundings& surroundings) {
         permute(*field);
     for (MatrixField* field : {&state_.B, &state_.pB, &state_.strain})
         for (int k = 0; k < symmetric_size(dimensions_); ++k) permute((*field)[k]);
-    if (energies_.is_on()) energies_.permute(grid_, scratch_);
-    const std::uint64_t coincident = separate_coincident(particles, grid_, spacing_, step_);
-    moved_ = coincident > 0 ? kCoincidentWay * spacing_ : 0.0;
-    separated_ += coincident;
+    if (energies_.is_on()) energies_.permute(order_, scratch_);
+    ++sorts_;
+}
+
+void Wcsph::sort_all(Particles& particles, const Surroundings& surroundings) {
+    constexpr int kMostTurns = 4;  // crowds in one place thin out over the sorts to come
+    put_in_order(particles, surroundings);
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+        const std::uint64_t coincident = separate_coincident(particles, spacing_, step_);
+        if (coincident == 0) break;
+        separated_ += coincident;
+        put_in_order(particles, surroundings);  // they have left their bins
+    }
+    list_neighbours(particles);
+}
+
+void Wcsph::list_neighbours(const Particles& particles) {
+    NeighbourInput in;
+    in.dimensions = dimensions_;
+    in.fluid = {&order_, &particles.x, state_.V.data(), particles.size()};
+    in.walls = walls_.points();
+    in.reach = {support_, kSkin * spacing_, period_, nullptr};
+    if (const Visibility* panels = walls_.thin_walls()) {
+        using enum SightLines::Between;
+        const VectorField &x = particles.x, &w = walls_.particles().x;
+        among_fluid_ = {fluid_and_fluid, *panels, x, x, dimensions_, support_};
+        fluid_to_wall_ = {fluid_and_wall, *panels, x, w, dimensions_, support_};
+        wall_to_fluid_ = {wall_and_fluid, *panels, w, x, dimensions_, support_};
+        in.among_fluid = &among_fluid_;
+        in.fluid_to_wall = &fluid_to_wall_;
+        in.wall_to_fluid = &wall_to_fluid_;
+    }
+    neighbours_->find(in);
+    has_lists_ = true;
+}
+
+void Wcsph::find_neighbours(Particles& particles, const Surroundings& surroundings) {
+    timed(kNeighbours, [&] {
+        if (!has_lists_ || !neighbours_->move_fluid(particles.x, state_.V.data())) sort_all(particles, surroundings);
+    });
 }
 
 void Wcsph::place_walls(const Surroundings& surroundings, double t, bool anew) {
-    walls_.place(surroundings, t, anew, {cell_side(), p_.gravity, p_.wall_slip});
+    const WallField::Change change = walls_.place(surroundings, t, anew, {p_.gravity, p_.wall_slip});
+    using enum WallField::Change;
+    if (change == reordered) has_lists_ = false;
+    if (change == moved && has_lists_)
+        has_lists_ = neighbours_->move_walls(walls_.particles().x, walls_.particles().V.data());
     if (!anew) return;
     objects_version_ = surroundings.objects_version;
     object_names_.clear();
     for (const CollisionObject& object : surroundings.objects) object_names_.push_back(object.name);
 }
 
-PairInput Wcsph::pair_input(const Particles& particles, bool centres_are_walls) const {
-    PairInput in;
-    in.fluid = {&grid_, &particles.x, state_.V.data()};
-    in.walls = walls_.points();
-    in.centres = centres_are_walls ? in.walls : in.fluid;
-    in.centres_are_walls = centres_are_walls;
-    in.period = period_;
-    in.support = support_;
-    in.thin_walls = walls_.thin_walls();
-    return in;
+void Wcsph::make_sums() {
+    const bool is_extreme = !(spacing_ >= 1e-6 && spacing_ <= 1e6);  // powers of it would leave single precision
+    const bool is_double =
+        p_.precision == Precision::double_precision || (p_.precision == Precision::automatic && is_extreme);
+    neighbours_ = make_pair_neighbours(is_double ? Arithmetic::double_precision : Arithmetic::single_precision);
+    has_lists_ = false;
+    sums_ = make_wcsph_sums({dimensions_, p_.kernel, support_}, *neighbours_);
+    set_flat_surface();
 }
 
 // ---- once per step --------------------------------------------------------------------------------------------------
@@ -93,7 +131,7 @@ GeometryOptions Wcsph::geometry_options(bool shifts) const {
 void Wcsph::compute_geometry(Particles& particles, bool shifts) {
     GeometryOptions options = geometry_options(shifts);
     options.step = ++step_;
-    sums_->geometry(pair_input(particles, false), data(particles), options);
+    sums_->geometry(data(particles), options);
 }
 
 // A share of the step's shift, and what it carries along.
@@ -107,7 +145,6 @@ void Wcsph::apply_shift(Particles& particles, double share) {
         }
         for (std::size_t i = begin; i < end; ++i) state_.delta[i] += share * state_.ddelta[i];
     });
-    moved_ += share * p_.shifting_limit * spacing_;
 }
 
 void Wcsph::compute_slow_forces(Particles& particles, const Surroundings& surroundings) {
@@ -129,34 +166,41 @@ void Wcsph::compute_slow_forces(Particles& particles, const Surroundings& surrou
     }
     if (energies_.is_on()) energies_.note_body_force(state_.a_slow, energy_setting(surroundings), dimensions_);
     if (p_.viscosity > 0.0) {
-        sums_->viscosity(pair_input(particles, false), data(particles), is_morris(), viscosity_options());
+        sums_->viscosity(data(particles), is_morris(), viscosity_options());
         if (energies_.is_on()) {
             energies_.note_viscosity(state_.a_slow, dimensions_);
-            energies_.note_wall_viscosity(wall_power(particles).viscosity);
+            energies_.note_wall_viscosity(wall_power(particles, surroundings).viscosity);
         }
     }
     if (p_.surface_tension > 0.0) {
-        compute_tension(particles);
+        compute_tension(particles, surroundings);
         if (energies_.is_on()) energies_.note_tension(state_.a_slow, dimensions_);
     }
 }
 
 // On the positions that the step's force stands for: held at its start, the short capillary waves would gain energy.
-void Wcsph::compute_tension(Particles& particles) {
+void Wcsph::compute_tension(Particles& particles, const Surroundings& surroundings) {
+    look_ahead(particles);
+    if (!neighbours_->move_fluid(tension_x_, state_.V.data())) {
+        sort_all(particles, surroundings);
+        look_ahead(particles);
+        neighbours_->move_fluid(tension_x_, state_.V.data());
+    }
+    for (int k = 0; k < symmetric_size(dimensions_); ++k) state_.surface_stress[k].resize(particles.size());
+    if (p_.tension_form == TensionForm::continuum) {
+        sums_->continuum_tension(data(particles), tension_options());
+    } else {
+        sums_->thesis_tension(data(particles), tension_options());
+    }
+}
+
+void Wcsph::look_ahead(const Particles& particles) {
     const double ahead = 0.5 * next_.dt * (1.0 + 1.0 / next_.acoustic_steps);
     for (int k = 0; k < dimensions_; ++k) {
         tension_x_[k].resize(particles.size());
         parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
             for (std::size_t i = begin; i < end; ++i) tension_x_[k][i] = particles.x[k][i] + ahead * particles.v[k][i];
         });
-    }
-    for (int k = 0; k < symmetric_size(dimensions_); ++k) state_.surface_stress[k].resize(particles.size());
-    PairInput in = pair_input(particles, false);
-    in.fluid.x = in.centres.x = &tension_x_;
-    if (p_.tension_form == TensionForm::continuum) {
-        sums_->continuum_tension(in, data(particles), tension_options());
-    } else {
-        sums_->thesis_tension(in, data(particles), tension_options());
     }
 }
 
@@ -194,15 +238,15 @@ void Wcsph::compute_state(Particles& particles, double dt, double drift) {
     });
 }
 
-void Wcsph::compute_pressure_forces(Particles& particles) {
+void Wcsph::compute_pressure_forces(Particles& particles, const Surroundings& surroundings) {
     compute_state(particles, 0.0, 0.0);
+    find_neighbours(particles, surroundings);
     if (!walls_.is_empty()) {
         timed(kWalls, [&] {
-            sums_->wall_pressure(pair_input(particles, true), data(particles),
-                                 {least_wall_pressure(), p_.rest_density * c0_ * c0_});
+            sums_->wall_pressure(data(particles), {least_wall_pressure(), p_.rest_density * c0_ * c0_});
         });
     }
-    timed(kPressure, [&] { compute_pressure(particles); });
+    timed(kPressure, [&] { compute_pressure(particles, surroundings); });
 }
 
 PressureOptions Wcsph::pressure_options() const {
@@ -214,44 +258,40 @@ PressureOptions Wcsph::pressure_options() const {
     return options;
 }
 
-void Wcsph::compute_pressure(Particles& particles) {
+void Wcsph::compute_pressure(Particles& particles, const Surroundings& surroundings) {
     const PressureOptions options = pressure_options();
-    const PairInput in = pair_input(particles, false);
     const bool separates = energies_.is_on() && options.artificial_viscosity != 0.0;
     if (separates) {
         PressureOptions without = options;
         without.artificial_viscosity = 0.0;
-        sums_->pressure(in, data(particles), is_adjoint(), without);
+        sums_->pressure(data(particles), is_adjoint(), without);
         energies_.note_without_artificial(particles.a);
     }
-    sums_->pressure(in, data(particles), is_adjoint(), options);
+    sums_->pressure(data(particles), is_adjoint(), options);
     if (separates) energies_.note_with_artificial(particles.a, dimensions_);
-    if (energies_.is_on()) energies_.note_wall_pressure(wall_power(particles).pressure);
+    if (energies_.is_on()) energies_.note_wall_pressure(wall_power(particles, surroundings).pressure);
 }
 
 void Wcsph::acoustic_step(Particles& particles, const Surroundings& surroundings, double t, double dt) {
-    const double reach = 1.5 * dt * std::max(max_speed_ + max_acceleration_ * dt, 1e-300);
-    if (2.0 * (moved_ + reach) > kSkin * spacing_) timed(kNeighbours, [&] { sort_all(particles, surroundings); });
-    moved_ += reach;
     if (energies_.is_on()) energies_.count_kick(particles, 0.5 * dt);
     timed(kAdvance, [&] { kick_drift(particles, 0.5 * dt, 0.5 * dt); });
     if (walls_.has_moving()) timed(kWalls, [&] { place_walls(surroundings, t + 0.5 * dt, false); });
+    find_neighbours(particles, surroundings);
     timed(kContinuity, [&] {
         ContinuityOptions options;
         options.diffusion = p_.density_diffusion_factor * h() * c0_;
         if (diffusion() == DensityDiffusion::fourtakas)
             for (int k = 0; k < 3; ++k) options.g_over_c2[k] = p_.gravity[k] / (c0_ * c0_);
-        const PairInput in = pair_input(particles, false);
         if (energies_.is_on()) {
-            sums_->continuity(in, data(particles), DensityDiffusion::none, options);
+            sums_->continuity(data(particles), DensityDiffusion::none, options);
             energies_.note_without_diffusion(state_.delta_rate);
         }
-        sums_->continuity(in, data(particles), diffusion(), options);
+        sums_->continuity(data(particles), diffusion(), options);
     });
     timed(kAdvance, [&] { compute_state(particles, dt, 0.5 * dt); });
     if (energies_.is_on()) energies_.count_diffusion(particles, state_, energy_setting(surroundings), dt);
     if (walls_.has_moving()) timed(kWalls, [&] { place_walls(surroundings, t + dt, false); });
-    compute_pressure_forces(particles);
+    compute_pressure_forces(particles, surroundings);
     if (energies_.is_on()) energies_.count_kick(particles, 0.5 * dt);
     timed(kAdvance, [&] { kick_drift(particles, 0.5 * dt, 0.0); });
 }
@@ -260,8 +300,8 @@ StepReport Wcsph::step(Particles& particles, const Surroundings& surroundings) {
     if (std::exchange(has_new_parameters_, false)) use_new_parameters(particles, surroundings);
     if (objects_version_ != surroundings.objects_version) place_walls(surroundings, surroundings.time, true);
     const double dt = next_.dt, t = surroundings.time;
-    if (2.0 * (moved_ + p_.shifting_limit * spacing_) > kSkin * spacing_)
-        timed(kNeighbours, [&] { sort_all(particles, surroundings); });
+    find_neighbours(particles, surroundings);
+    if (walls_.thin_walls() != nullptr) timed(kNeighbours, [&] { neighbours_->refresh_visibility(); });
     const bool shifts = p_.shifting && max_speed_ > 0.0;
     timed(kGeometry, [&] { compute_geometry(particles, shifts); });
     timed(kSlow, [&] { compute_slow_forces(particles, surroundings); });
@@ -276,9 +316,8 @@ StepReport Wcsph::step(Particles& particles, const Surroundings& surroundings) {
     }
     timed(kWalls, [&] {
         std::uint64_t count = 0;
-        count_loss(particles, surroundings, [&] { count = walls_.hold(particles, grid_, dt); });
+        count_loss(particles, surroundings, [&] { count = walls_.hold(particles, *neighbours_, dt); });
         put_back_ += count;
-        if (count > 0) moved_ += kSkin * spacing_;  // further than the drift tells: sort before the next step
     });
     return finish(particles, surroundings, dt);
 }

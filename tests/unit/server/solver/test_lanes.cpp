@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <random>
 
 #include "server/solver/lanes.h"
@@ -8,8 +10,16 @@ using namespace headrace::solver;
 
 namespace {
 
+using Eight = Lanes<double, 8>;
+constexpr std::size_t kLanes = Eight::kCount;
+
 struct Numbers {
     alignas(64) double value[kLanes];
+    Eight lanes() const {
+        Eight lanes;
+        std::memcpy(&lanes.v, value, sizeof value);
+        return lanes;
+    }
 };
 
 Numbers random_numbers(unsigned seed) {
@@ -24,34 +34,33 @@ Numbers random_numbers(unsigned seed) {
 
 TEST_CASE("Lanes.DoToEachNumberWhatTheScalarFunctionsDo") {
     const Numbers a = random_numbers(1), b = random_numbers(2);
-    const Lanes x = load_lanes(a.value), y = load_lanes(b.value);
-    const Lanes one = splat<Lanes>(1.5), root = square_root(Lanes(x * x)), large = maximum<Lanes>(x, y),
-                small = minimum<Lanes>(x, y), positive = positive_or_zero<Lanes>(x),
-                chosen = less_or<Lanes>(x, y, x * 2.0, y * 3.0);
+    const Eight x = a.lanes(), y = b.lanes();
+    const Eight one = splat<Eight>(1.5), large = maximum<Eight>(x, y), small = minimum<Eight>(x, y),
+                positive = positive_or_zero<Eight>(x), chosen = less_or(x, y, x * 2.0, 3.0 * y),
+                quotient = (x - y) / (x + 2.0);
     for (std::size_t k = 0; k < kLanes; ++k) {
         CHECK(x[k] == a.value[k]);
         CHECK(one[k] == 1.5);
-        CHECK(root[k] == square_root(a.value[k] * a.value[k]));
-        CHECK(large[k] == maximum(a.value[k], b.value[k]));
-        CHECK(small[k] == minimum(a.value[k], b.value[k]));
-        CHECK(positive[k] == positive_or_zero(a.value[k]));
-        CHECK(chosen[k] == less_or(a.value[k], b.value[k], a.value[k] * 2.0, b.value[k] * 3.0));
+        CHECK(large[k] == std::max(a.value[k], b.value[k]));
+        CHECK(small[k] == std::min(a.value[k], b.value[k]));
+        CHECK(positive[k] == std::max(a.value[k], 0.0));
+        CHECK(chosen[k] == (a.value[k] < b.value[k] ? a.value[k] * 2.0 : b.value[k] * 3.0));
+        CHECK(quotient[k] == (a.value[k] - b.value[k]) / (a.value[k] + 2.0));
     }
 }
 
-TEST_CASE("Lanes.AreSummedInOneOrder") {
-    // Powers that rounding would lose in another order: (0+4) + (2+6) + ((1+5) + (3+7)).
-    alignas(64) const double numbers[kLanes] = {1e16, 3.0, 1.0, 5.0, -1e16, 7.0, 2.0, 9.0};
-    CHECK(sum_lanes(load_lanes(numbers)) == 27.0);
-    CHECK(sum_lanes(4.5) == 4.5);
+TEST_CASE("Lanes.OfFloatsRoundEachOperation") {
+    const Lanes<float, 4> third = Lanes<float, 4>(1.0) / 3.0;
+    for (std::size_t k = 0; k < 4; ++k) CHECK(third[k] == 1.0f / 3.0f);
+    CHECK(tiny<Lanes<float, 4>>()[0] > 0.0f);
 }
 
 TEST_CASE("Lanes.KernelsHaveTheValueOfOneNumber") {
     const WendlandC2<3> kernel(0.8);
-    alignas(64) const double r[kLanes] = {0.0, 0.1, 0.25, 0.4, 0.6, 0.79, 0.8, 1e100};
-    const Lanes W = kernel.W(load_lanes(r)), F = kernel.F(load_lanes(r));
+    const Numbers r{{0.0, 0.1, 0.25, 0.4, 0.6, 0.79, 0.8, 1e100}};
+    const Eight W = kernel.W(r.lanes()), F = kernel.F(r.lanes());
     for (std::size_t k = 0; k < kLanes; ++k) {
-        CHECK(W[k] == Approx(kernel.W(r[k])).epsilon(1e-15));
-        CHECK(F[k] == Approx(kernel.F(r[k])).epsilon(1e-15));
+        CHECK(W[k] == Approx(kernel.W(r.value[k])).epsilon(1e-15));
+        CHECK(F[k] == Approx(kernel.F(r.value[k])).epsilon(1e-15));
     }
 }

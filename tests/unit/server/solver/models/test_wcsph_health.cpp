@@ -120,12 +120,10 @@ TEST_CASE("Coincident.PairsMoveApartAndTheirCentreStays") {
     Particles particles = three_particles();
     particles.x[0] = {0.5, 0.5, 0.5 + 0.5 * dx};
     particles.x[1] = {0.5, 0.5, 0.5};
-    CellGrid grid;
-    grid.build(particles.x, particles.id, 2, 3 * dx, nullptr);
-    CHECK(separate_coincident(particles, grid, dx, 1) == 1);
+    CHECK(separate_coincident(particles, dx, 1) == 1);
     CHECK(std::hypot(particles.x[0][0] - particles.x[0][1], particles.x[1][0] - particles.x[1][1]) ==
           Approx(2 * kCoincidentWay * dx));
     CHECK(particles.x[0][0] + particles.x[0][1] == Approx(1.0));
     CHECK(particles.x[0][2] == 0.5 + 0.5 * dx);  // not coincident: left alone
-    CHECK(separate_coincident(particles, grid, dx, 2) == 0);
+    CHECK(separate_coincident(particles, dx, 2) == 0);
 }

@@ -33,7 +33,10 @@ struct Scene {
         return {objects, domain, time, body_force ? &*body_force : nullptr, objects_version};
     }
     StepReport start() {
-        model = make_model("wcsph", dimensions, dx, parameters);
+        // Laws are checked to round-off; what single precision does to them has tests of its own.
+        ParameterMap chosen = parameters;
+        chosen.try_emplace("precision", std::string("double"));
+        model = make_model("wcsph", dimensions, dx, chosen);
         time = 0.0;
         return model->initialise(particles, surroundings());
     }

@@ -1,4 +1,5 @@
-// Every pass of the pair loop against plain sums over all pairs, for each instruction set of this processor.
+// Every pass of the pair loop against plain sums over all pairs, for each instruction set of this processor and both
+// precisions.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -6,20 +7,17 @@
 #include "scenes.h"
 #include "server/solver/models/wcsph/pair_terms.h"
 #include "server/solver/models/wcsph/sums.h"
+#include "server/solver/pairs/instruction_sets.h"
 
 using namespace headrace::solver;
 using namespace headrace::solver::testing;
 
 namespace {
 
-constexpr double kSupport = 0.2, kCell = 0.21;  // [m]
+constexpr double kSupport = 0.2, kSpacing = kSupport / 3.0;  // [m]
 
-std::vector<Isa> instruction_sets() {
-    std::vector<Isa> sets{Isa::baseline};
-    if (best_isa() != Isa::baseline) sets.push_back(Isa::avx2);
-    if (best_isa() == Isa::avx512) sets.push_back(Isa::avx512);
-    return sets;
-}
+constexpr double kDouble = 1e-12, kSingle = 1e-3;
+double tolerance = kDouble;
 
 class Uniform {
   public:
@@ -44,7 +42,7 @@ struct Bench {
     WcsphState state;
     WallParticles walls;
     WallState wall_state;
-    CellGrid grid;
+    ClusterOrder order, wall_order;
 
     explicit Bench(unsigned seed) {
         Uniform uniform(seed);
@@ -84,28 +82,28 @@ struct Bench {
     void sort() {
         std::vector<double> scratch;
         std::vector<Index> scratch_id;
-        grid.build(particles.x, particles.id, D, kCell, &domain);
-        wall_state.grid.build(walls.x, walls.id, D, kCell, &domain);
-        grid.permute(particles.id, scratch_id);
-        wall_state.grid.permute(walls.id, scratch_id);
+        order.build(particles.x, particles.id, D, kSpacing, domain);
+        wall_order.build(walls.x, walls.id, D, kSpacing, domain);
+        order.permute(particles.id, scratch_id);
+        wall_order.permute(walls.id, scratch_id);
         for (int k = 0; k < D; ++k) {
-            grid.permute(particles.x[k], scratch);
-            wall_state.grid.permute(walls.x[k], scratch);
+            order.permute(particles.x[k], scratch);
+            wall_order.permute(walls.x[k], scratch);
         }
     }
 
     PassData data() { return {particles, state, walls, wall_state}; }
     WcsphView view() const { return {particles, state, walls, wall_state}; }
 
-    PairInput input(bool centres_are_walls) const {
-        PairInput in;
-        in.fluid = {&grid, &particles.x, state.V.data()};
-        in.walls = {&wall_state.grid, &walls.x, walls.V.data()};
-        in.centres = centres_are_walls ? in.walls : in.fluid;
-        in.centres_are_walls = centres_are_walls;
-        for (int k = 0; k < 3; ++k) in.period[k] = domain.max[k] - domain.min[k];
-        in.support = kSupport;
-        return in;
+    void find(PairNeighbours& neighbours) const {
+        NeighbourInput in;
+        in.dimensions = D;
+        in.fluid = {&order, &particles.x, state.V.data(), particles.size()};
+        in.walls = {&wall_order, &walls.x, walls.V.data(), walls.size()};
+        in.reach.support = kSupport;
+        in.reach.skin = 0.1 * kSpacing;
+        for (int k = 0; k < 3; ++k) in.reach.period[k] = domain.max[k] - domain.min[k];
+        neighbours.find(in);
     }
 
     // visit(j, pair) for the points of `to` within the support of x, at their nearest images; periods are longer than
@@ -135,9 +133,9 @@ struct Bench {
     std::array<double, D> x(std::size_t i) const { return vector_at<D>(particles.x, i); }
 };
 
-// Equal but for the order of summation: some hundred terms of a few digits' cancellation.
+// Equal but for the order of summation: some hundred terms of a few digits' cancellation, 1e4 roundings.
 bool is_same(double value, double expected, double scale) {
-    return std::abs(value - expected) <= 1e-12 * std::max(scale, std::abs(expected));
+    return std::abs(value - expected) <= tolerance * std::max(scale, std::abs(expected));
 }
 
 template <int D>
@@ -161,7 +159,7 @@ void check_geometry(Bench<D> bench, WcsphSums& sums) {
     GeometryOptions options;
     options.correction_threshold = 0.5;
     options.shifting = options.reconstructs = true;
-    sums.geometry(bench.input(false), bench.data(), options);
+    sums.geometry(bench.data(), options);
     const double scale = largest_of(bench.state.grad_delta);
     for (std::size_t i = 0; i < bench.particles.size(); ++i) {
         Symmetric<D> M;
@@ -211,7 +209,7 @@ void check_continuity(Bench<D> bench, WcsphSums& sums, DensityDiffusion form) {
     ContinuityOptions options;
     options.diffusion = 0.3;
     if (form == DensityDiffusion::fourtakas) options.g_over_c2 = {0.1, -0.5, 0.2};
-    sums.continuity(bench.input(false), bench.data(), form, options);
+    sums.continuity(bench.data(), form, options);
     const double scale = *std::max_element(bench.state.delta_rate.begin(), bench.state.delta_rate.end());
     for (std::size_t i = 0; i < bench.particles.size(); ++i) {
         const Symmetric<D> B = matrix_at<D>(bench.state.B, i);
@@ -249,7 +247,7 @@ void check_pressure(Bench<D> bench, WcsphSums& sums, bool is_adjoint, double alp
     options.pressure.artificial_viscosity = alpha;
     options.pressure.controls_tension = is_adjoint;
     options.pressure.tension_eigenvalue = 0.9;
-    sums.pressure(bench.input(false), bench.data(), is_adjoint, options.pressure);
+    sums.pressure(bench.data(), is_adjoint, options.pressure);
     const WcsphView view = bench.view();
     const PairTerms<D> terms(view, options);
     const double scale = largest_of(bench.particles.a);
@@ -274,7 +272,7 @@ void check_viscosity(Bench<D> bench, WcsphSums& sums, bool is_morris) {
     options.is_morris = is_morris;
     options.viscosity = {0.7, 0.01};
     const VectorField before = bench.state.a_slow;
-    sums.viscosity(bench.input(false), bench.data(), is_morris, options.viscosity);
+    sums.viscosity(bench.data(), is_morris, options.viscosity);
     const WcsphView view = bench.view();
     const PairTerms<D> terms(view, options);
     const double scale = largest_of(bench.state.a_slow);
@@ -293,7 +291,7 @@ void check_viscosity(Bench<D> bench, WcsphSums& sums, bool is_morris) {
 
 template <int D>
 void check_wall_pressure(Bench<D> bench, WcsphSums& sums, double least) {
-    sums.wall_pressure(bench.input(true), bench.data(), {least, 50.0});
+    sums.wall_pressure(bench.data(), {least, 50.0});
     std::size_t clamped = 0;
     for (std::size_t w = 0; w < bench.walls.size(); ++w) {
         double W = 0.0, p = 0.0;
@@ -315,19 +313,26 @@ template <int D>
 void check_all(KernelKind kernel) {
     const unsigned seed = 23;
     const Bench<D> bench(seed);
-    for (const Isa isa : instruction_sets()) {
-        INFO(D << "D, kernel " << static_cast<int>(kernel) << ", " << isa_name(isa) << ", seed " << seed);
-        const std::unique_ptr<WcsphSums> sums = make_wcsph_sums(D, kernel, kSupport, isa);
-        check_geometry<D>(bench, *sums);
-        using enum DensityDiffusion;
-        for (const DensityDiffusion form : {none, molteni_colagrossi, fourtakas, antuono})
-            check_continuity<D>(bench, *sums, form);
-        for (const bool is_adjoint : {true, false}) {
-            for (const double alpha : {0.0, 0.2}) check_pressure<D>(bench, *sums, is_adjoint, alpha);
+    for (const std::string& set : instruction_sets()) {
+        for (const Arithmetic arithmetic : {Arithmetic::double_precision, Arithmetic::single_precision}) {
+            const OnlyInstructionSet only(set);
+            tolerance = arithmetic == Arithmetic::double_precision ? kDouble : kSingle;
+            INFO(D << "D, kernel " << static_cast<int>(kernel) << ", " << set << ", tolerance " << tolerance
+                   << ", seed " << seed);
+            const auto neighbours = make_pair_neighbours(arithmetic);
+            bench.find(*neighbours);
+            const std::unique_ptr<WcsphSums> sums = make_wcsph_sums({D, kernel, kSupport}, *neighbours);
+            check_geometry<D>(bench, *sums);
+            using enum DensityDiffusion;
+            for (const DensityDiffusion form : {none, molteni_colagrossi, fourtakas, antuono})
+                check_continuity<D>(bench, *sums, form);
+            for (const bool is_adjoint : {true, false}) {
+                for (const double alpha : {0.0, 0.2}) check_pressure<D>(bench, *sums, is_adjoint, alpha);
+            }
+            for (const bool is_morris : {true, false}) check_viscosity<D>(bench, *sums, is_morris);
+            for (const double least : {0.0, -std::numeric_limits<double>::infinity()})
+                check_wall_pressure<D>(bench, *sums, least);
         }
-        for (const bool is_morris : {true, false}) check_viscosity<D>(bench, *sums, is_morris);
-        for (const double least : {0.0, -std::numeric_limits<double>::infinity()})
-            check_wall_pressure<D>(bench, *sums, least);
     }
 }
 

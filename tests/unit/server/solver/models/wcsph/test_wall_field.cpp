@@ -7,6 +7,26 @@
 using namespace headrace::solver;
 using namespace headrace::solver::testing;
 
+namespace {
+
+std::unique_ptr<PairNeighbours> find_neighbours(Scene& scene, const WallField& walls, double support) {
+    Particles& particles = scene.particles;
+    ClusterOrder order;
+    std::vector<double> scratch;
+    std::vector<Index> scratch_id;
+    order.build(particles.x, particles.id, scene.dimensions, scene.dx, scene.domain);
+    order.permute(particles.id, scratch_id);
+    for (VectorField* field : {&particles.x, &particles.v}) {
+        for (int k = 0; k < scene.dimensions; ++k) order.permute((*field)[k], scratch);
+    }
+    const std::vector<double> V(particles.size(), 1.0);
+    auto neighbours = make_pair_neighbours(Arithmetic::single_precision);
+    neighbours->find({scene.dimensions, {&order, &particles.x, V.data(), V.size()}, walls.points(), {support}});
+    return neighbours;
+}
+
+}  // namespace
+
 TEST_CASE("WallField.FluidInSolidsThatTouchIsPutBackIntoTheRoom") {
     // A block on a tank's floor, one in its corner and one across it: the nearest surface of what is low in a block is
     // its bottom, where the floor begins.
@@ -24,15 +44,14 @@ TEST_CASE("WallField.FluidInSolidsThatTouchIsPutBackIntoTheRoom") {
     for (int k = 0; k < dimensions; ++k) std::fill(scene.particles.v[k].begin(), scene.particles.v[k].end(), -1.0);
     const double support = 3.0 * dx;
     WallField walls(dimensions, dx, support);
-    walls.place(scene.surroundings(), 0.0, true, {support, {}});
-    CellGrid grid;
-    grid.sort(scene.particles, support);
+    walls.place(scene.surroundings(), 0.0, true, {});
+    const auto neighbours = find_neighbours(scene, walls, support);
 
-    CHECK(walls.hold(scene.particles, grid, 1e-3) > 0);
+    CHECK(walls.hold(scene.particles, *neighbours, 1e-3) > 0);
 
     double deepest = 0.0;
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
         deepest = std::min(deepest, walls.walls().distance_to_any(at(scene.particles.x, dimensions, i)));
     CHECK(deepest == 0.0);
-    CHECK(walls.hold(scene.particles, grid, 1e-3) == 0);
+    CHECK(walls.hold(scene.particles, *neighbours, 1e-3) == 0);
 }

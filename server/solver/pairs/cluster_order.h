@@ -1,0 +1,139 @@
+// The storage order of the pair engine: points in rows along x, so that four in a row are close together.
+//
+// Space is divided into rows of square cross-section, about as wide as the edge of a cube of four points, and each row
+// into bins about a quarter of that long. Points are sorted by row and bin; every four of them are a cluster. Rows are
+// walked through to and fro, so that a cluster at a row's end has its other points in the next row's near end.
+//
+// Within a bin points stand in the order of their ids: the order is a function of places and ids alone.
+//
+// Dense layout: one start index per bin of the points' bounding box. Sparse: where that would take more than kDenseBins
+// per point (drops far apart), bins are found by bisection.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "server/solver/objects.h"
+#include "server/solver/parallel.h"
+#include "server/solver/particles.h"
+
+namespace headrace::solver {
+
+inline constexpr std::size_t kClusterSize = 4;
+
+// Slots [begin, end) of the storage order, displaced by image[axis] periods.
+struct SlotRun {
+    Index begin{};
+    Index end{};
+    std::array<int, 3> image{};
+};
+
+class ClusterOrder {
+  public:
+    // Finds the order. spacing [m] sets the width of rows. Along the domain's periodic axes x must be in [min, max).
+    void build(const VectorField& x, const std::vector<Index>& id, int dimensions, double spacing,
+               const Domain& domain);
+
+    // Puts one array of the points into the order found by build().
+    template <class T>
+    void permute(std::vector<T>& values, std::vector<T>& scratch) const;
+
+    std::size_t size() const { return order_.size(); }
+    std::size_t clusters() const { return (size() + kClusterSize - 1) / kClusterSize; }
+
+    // visit(run) for runs of slots that together hold all points within `reach` of the box [low, high], periodic images
+    // included, and some others. All runs of one image come in a row.
+    template <class Visit>
+    void for_each_run(const Vec3& low, const Vec3& high, double reach, Visit&& visit) const;
+
+  private:
+    using Bin = std::array<std::int64_t, 3>;  // z, y, x
+    static constexpr std::size_t kDenseBins = 8;
+    static constexpr std::size_t kDenseMinimum = 65536;
+
+    Bin find_bin(const VectorField& x, std::size_t i) const;
+    // Coordinates that compare lexicographically in the order of storage.
+    static Bin in_walking_order(const Bin& bin);
+    std::size_t number_of(const Bin& bin) const;
+    std::int64_t coordinate(double x, int axis) const;
+    void divide(double spacing, const Domain& domain);
+    void measure(const VectorField& x, std::size_t count);
+    void order_dense(const VectorField& x, const std::vector<Index>& id);
+    void order_sparse(const VectorField& x, const std::vector<Index>& id);
+    // Slots of the bins first..last of a row.
+    SlotRun find_run(std::int64_t z, std::int64_t y, std::int64_t first, std::int64_t last) const;
+
+    int dimensions_{3};
+    std::array<double, 3> side_{}, inv_side_{}, origin_{};  // [m], [1/m], [m] by axis
+    std::array<double, 3> period_{};                        // [m]; 0: not periodic
+    std::array<std::int64_t, 3> bins_in_period_{};
+    Bin lowest_{}, highest_{};  // of the occupied bins
+    bool is_dense_{true};
+    std::size_t row_{}, layer_{};   // bins from one row, one layer to the next
+    std::vector<Index> start_;      // dense: [bins + 1]
+    std::vector<Index> number_;     // dense: [N] bin of each point
+    std::vector<Index> rank_;       // dense: [N] place within its bin before ordering by id
+    std::vector<Bin> bin_of_slot_;  // sparse: in walking order
+    std::vector<Index> order_;      // [N] old slot of the point that belongs into this slot
+};
+
+template <class T>
+void ClusterOrder::permute(std::vector<T>& values, std::vector<T>& scratch) const {
+    scratch.resize(order_.size());
+    parallel_for(order_.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) scratch[i] = values[order_[i]];
+    });
+    values.swap(scratch);
+}
+
+template <class Visit>
+void ClusterOrder::for_each_run(const Vec3& low, const Vec3& high, double reach, Visit&& visit) const {
+    if (order_.empty()) return;
+    Bin first{}, last{};       // z, y, x
+    Bin image_0{}, image_1{};  // periods that the box's surroundings reach into
+    for (int axis = 0; axis < dimensions_; ++axis) {
+        const int c = 2 - axis;
+        first[c] = coordinate(low[axis] - reach, axis);
+        last[c] = coordinate(high[axis] + reach, axis);
+        if (bins_in_period_[axis] == 0) continue;
+        const auto floor_div = [](std::int64_t a, std::int64_t b) { return a / b - (a % b < 0); };
+        image_0[c] = floor_div(first[c], bins_in_period_[axis]);
+        image_1[c] = floor_div(last[c], bins_in_period_[axis]);
+    }
+    const auto gap_to_row = [&](int axis, std::int64_t bin) {
+        const double bottom = origin_[axis] + static_cast<double>(bin) * side_[axis], top = bottom + side_[axis];
+        return std::max({0.0, bottom - high[axis], low[axis] - top});
+    };
+    for (std::int64_t iz = image_0[0]; iz <= image_1[0]; ++iz) {
+        for (std::int64_t iy = image_0[1]; iy <= image_1[1]; ++iy) {
+            for (std::int64_t ix = image_0[2]; ix <= image_1[2]; ++ix) {
+                const std::int64_t shift_z = iz * bins_in_period_[2], shift_y = iy * bins_in_period_[1],
+                                   shift_x = ix * bins_in_period_[0];
+                const std::int64_t z_0 = std::max(first[0], lowest_[0] + shift_z),
+                                   z_1 = std::min(last[0], highest_[0] + shift_z),
+                                   y_0 = std::max(first[1], lowest_[1] + shift_y),
+                                   y_1 = std::min(last[1], highest_[1] + shift_y);
+                const std::array<int, 3> image{static_cast<int>(ix), static_cast<int>(iy), static_cast<int>(iz)};
+                for (std::int64_t z = z_0; z <= z_1; ++z) {
+                    const double gap_z = dimensions_ == 3 ? gap_to_row(2, z) : 0.0;
+                    for (std::int64_t y = y_0; y <= y_1; ++y) {
+                        const double gap_y = gap_to_row(1, y);
+                        const double left2 = reach * reach - gap_z * gap_z - gap_y * gap_y;
+                        if (left2 < 0.0) continue;
+                        const double left = std::sqrt(left2);
+                        SlotRun run = find_run(z - shift_z, y - shift_y, coordinate(low[0] - left, 0) - shift_x,
+                                               coordinate(high[0] + left, 0) - shift_x);
+                        if (run.begin == run.end) continue;
+                        run.image = image;
+                        visit(run);
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace headrace::solver

@@ -1,0 +1,90 @@
+#include "server/solver/pairs/cluster_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "server/solver/parallel.h"
+
+namespace headrace::solver {
+namespace {
+
+// Where places beyond the last point stand [reference steps]: out of reach of any cluster's neighbours, and the square
+// is far from overflow.
+constexpr double kOutOfReach = 100.0;
+
+std::int32_t cube_of(double x, double step) {
+    constexpr double kOutermost = 1e9;  // a faulted state may be packed without harm
+    const double cube = std::floor(x / step);
+    return cube > -kOutermost ? static_cast<std::int32_t>(std::min(cube, kOutermost))
+                              : static_cast<std::int32_t>(-kOutermost);
+}
+
+}  // namespace
+
+template <class S>
+void ClusterPoints<S>::start(const VectorField& x, const double* V, std::size_t count, int dimensions, double support) {
+    count_ = count;
+    dimensions_ = dimensions;
+    step_ = std::exp2(std::ceil(std::log2(2.0 * support)));
+    stride_ = static_cast<std::size_t>(dimensions + 1) * kClusterSize;
+    records_.resize(clusters() * stride_);
+    reference_.resize(clusters());
+    start_.resize(clusters() * static_cast<std::size_t>(dimensions) * kClusterSize);
+    motion_.resize((clusters() + kMotionBlock - 1) / kMotionBlock);
+    pack<true>(x, V);
+}
+
+template <class S>
+void ClusterPoints<S>::update(const VectorField& x, const double* V) {
+    pack<false>(x, V);
+}
+
+template <class S>
+template <bool IsStart>
+void ClusterPoints<S>::pack(const VectorField& x, const double* V) {
+    parallel_for(clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
+        MotionBox box;
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        for (int k = 0; k < dimensions_; ++k) {
+            box.low[k] = kInfinity;
+            box.high[k] = -kInfinity;
+        }
+        for (std::size_t c = first; c < last; ++c) {
+            const std::size_t begin = c * kClusterSize, in_cluster = std::min(kClusterSize, count_ - begin);
+            S* record = &records_[c * stride_];
+            float* start = &start_[c * static_cast<std::size_t>(dimensions_) * kClusterSize];
+            for (int k = 0; k < dimensions_; ++k, record += kClusterSize, start += kClusterSize) {
+                const double* places = x[k].data() + begin;
+                if constexpr (IsStart) {
+                    double low = places[0], high = places[0];
+                    for (std::size_t l = 1; l < in_cluster; ++l) {
+                        low = std::min(low, places[l]);
+                        high = std::max(high, places[l]);
+                    }
+                    reference_[c][k] = cube_of(0.5 * (low + high), step_);
+                }
+                const double centre = (reference_[c][k] + 0.5) * step_;
+                for (std::size_t l = 0; l < kClusterSize; ++l) {
+                    const double place = l < in_cluster ? places[l] - centre : kOutOfReach * step_;
+                    record[l] = static_cast<S>(place);
+                    if constexpr (IsStart) {
+                        start[l] = static_cast<float>(place);
+                    } else {
+                        const float moved = static_cast<float>(place) - start[l];
+                        box.low[k] = std::min(box.low[k], moved);
+                        box.high[k] = std::max(box.high[k], moved);
+                    }
+                }
+            }
+            for (std::size_t l = 0; l < kClusterSize; ++l)
+                record[l] = l < in_cluster ? static_cast<S>(V[begin + l]) : S{};
+        }
+        motion_[first / kMotionBlock] = IsStart ? MotionBox{} : box;
+    });
+}
+
+template class ClusterPoints<float>;
+template class ClusterPoints<double>;
+
+}  // namespace headrace::solver

@@ -1,0 +1,267 @@
+#include "server/solver/pairs/pair_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "server/solver/parallel.h"
+
+namespace headrace::solver {
+namespace {
+
+// Blocks further apart than the reach and this many skins are not compared one by one: all displacements together may
+// not exceed it.
+constexpr double kFarSkins = 4.0;
+
+// Relative places are rounded: the reach is longer by this share.
+constexpr double kRounding = 4e-6;
+
+struct Extent {
+    Vec3 low{}, high{};
+};
+
+Extent extent_of(const VectorField& x, int dimensions, std::size_t begin, std::size_t end) {
+    Extent extent;
+    for (int k = 0; k < dimensions; ++k) {
+        const auto [low, high] = std::minmax_element(x[k].begin() + static_cast<std::ptrdiff_t>(begin),
+                                                     x[k].begin() + static_cast<std::ptrdiff_t>(end));
+        extent.low[k] = *low;
+        extent.high[k] = *high;
+    }
+    return extent;
+}
+
+// Points far apart that follow each other in the order: spray, or the ends of rows of a ragged body.
+bool is_wide(const Extent& extent, int dimensions, double reach) {
+    constexpr double kWidest = 16.0;
+    for (int k = 0; k < dimensions; ++k) {
+        if (!(extent.high[k] - extent.low[k] < kWidest * reach)) return true;
+    }
+    return false;
+}
+
+// Runs near the points [begin, end): near the box around them all, or near each of them.
+template <class Visit>
+void for_each_run_near(const ClusterOrder& order, const VectorField& x, int dimensions, std::size_t begin,
+                       std::size_t end, double reach, bool is_torn, Visit&& visit) {
+    if (!is_torn) {
+        const Extent extent = extent_of(x, dimensions, begin, end);
+        order.for_each_run(extent.low, extent.high, reach, visit);
+        return;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+        const Extent extent = extent_of(x, dimensions, i, i + 1);
+        order.for_each_run(extent.low, extent.high, reach, visit);
+    }
+}
+
+void drop_repeated(std::vector<Candidate>& candidates) {
+    const auto key = [](const Candidate& c) { return std::pair(c.offset, c.cluster); };
+    std::sort(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
+    candidates.erase(std::unique(candidates.begin(), candidates.end(), is_same), candidates.end());
+}
+
+// Longest difference between a displacement of one box and one of the other, squared.
+double difference2(const MotionBox& a, const MotionBox& b) {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double longest = std::max(a.high[k] - b.low[k], b.high[k] - a.low[k]);
+        sum += longest * longest;
+    }
+    return sum;
+}
+
+MotionBox join(const std::vector<MotionBox>& boxes, MotionBox all) {
+    for (const MotionBox& box : boxes) {
+        for (int k = 0; k < 3; ++k) {
+            all.low[k] = std::min(all.low[k], box.low[k]);
+            all.high[k] = std::max(all.high[k], box.high[k]);
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+template <class S>
+void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
+                        const ClusterOrder& order, const ReachOptions& options) {
+    skin_ = options.skin;
+    far_skin_ = kFarSkins * options.skin;
+    const std::size_t count = (centres.clusters() + kMotionBlock - 1) / kMotionBlock;
+    blocks_.resize(count);
+    scratch_.resize(static_cast<std::size_t>(max_threads()));
+    for (Scratch& scratch : scratch_) {
+        scratch.stamp.assign(neighbours.clusters(), 0);
+        scratch.look = 0;
+    }
+    parallel_for(count, 4, [&](std::size_t first, std::size_t last, int thread) {
+        for (std::size_t b = first; b < last; ++b)
+            build_block(b, centres, x, neighbours, order, options, scratch_[static_cast<std::size_t>(thread)]);
+    });
+    if (options.visibility != nullptr) refresh(*options.visibility, centres.size(), neighbours.size());
+}
+
+template <class S>
+void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, const VectorField& x,
+                              const ClusterPoints<S>& neighbours, const ClusterOrder& order,
+                              const ReachOptions& options, Scratch& scratch) {
+    const double reach = (options.support + options.skin) * (1.0 + kRounding);
+    PairBlock<S>& block = blocks_[b];
+    scratch.groups.clear();
+    scratch.entries.clear();
+    const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
+    bool needs_visibility = false;
+    for (std::size_t c = first; c < last; ++c) {
+        block.first_group[c - first] = static_cast<Index>(scratch.groups.size());
+        const std::size_t begin = c * kClusterSize, end = std::min(begin + kClusterSize, centres.size());
+        const Extent extent = extent_of(x, centres.dimensions(), begin, end);
+        if (options.visibility != nullptr) needs_visibility |= options.visibility->is_needed_near(extent.low);
+        scratch.candidates.clear();
+        scratch.ways.clear();
+        scratch.offsets.clear();
+        std::array<int, 3> image{};
+        ++scratch.look;
+        const bool is_torn = is_wide(extent, centres.dimensions(), reach);
+        for_each_run_near(order, x, centres.dimensions(), begin, end, reach, is_torn, [&](const SlotRun& run) {
+            if (run.image != image) ++scratch.look;
+            image = run.image;
+            for (Index j = run.begin / kClusterSize; j <= (run.end - 1) / kClusterSize; ++j) {
+                if (scratch.stamp[j] == scratch.look) continue;
+                scratch.stamp[j] = scratch.look;
+                const auto& reference = neighbours.reference(j);
+                std::size_t way = scratch.ways.size();
+                while (way > 0 &&
+                       !(scratch.ways[way - 1].reference == reference && scratch.ways[way - 1].image == image))
+                    --way;
+                if (way == 0) {
+                    scratch.ways.push_back({reference, image});
+                    std::array<S, 3> offset{};
+                    for (int k = 0; k < centres.dimensions(); ++k)
+                        offset[k] = static_cast<S>((centres.reference(c)[k] - reference[k]) * centres.reference_step() -
+                                                   image[k] * options.period[k]);
+                    scratch.offsets.push_back(offset);
+                    way = scratch.ways.size();
+                }
+                scratch.candidates.push_back({j, static_cast<Index>(way - 1)});
+            }
+        });
+        if (is_torn) drop_repeated(scratch.candidates);
+        const std::size_t kept = filter_reach(
+            {centres.dimensions(), centres.record(c), end - begin, neighbours.record(0), scratch.offsets.data(), reach},
+            scratch.candidates.data(), scratch.candidates.size());
+        scratch.counts.assign(scratch.ways.size() + 1, 0);
+        for (std::size_t k = 0; k < kept; ++k) ++scratch.counts[scratch.candidates[k].offset + 1];
+        const auto base = static_cast<Index>(scratch.entries.size());
+        scratch.counts[0] = base;
+        for (std::size_t way = 0; way < scratch.ways.size(); ++way) {
+            scratch.counts[way + 1] += scratch.counts[way];
+            if (scratch.counts[way + 1] > scratch.counts[way])
+                scratch.groups.push_back({scratch.counts[way], scratch.counts[way + 1], scratch.offsets[way]});
+        }
+        scratch.entries.resize(base + kept);
+        for (std::size_t k = 0; k < kept; ++k)
+            scratch.entries[scratch.counts[scratch.candidates[k].offset]++] = scratch.candidates[k].cluster;
+    }
+    for (std::size_t c = last - first; c <= kMotionBlock; ++c)
+        block.first_group[c] = static_cast<Index>(scratch.groups.size());
+    block.groups.assign(scratch.groups.begin(), scratch.groups.end());
+    block.entries.assign(scratch.entries.begin(), scratch.entries.end());
+    block.seen.clear();
+    if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
+    list_nearby(block, x, centres.dimensions(), first * kClusterSize, std::min(last * kClusterSize, centres.size()),
+                order, options, scratch);
+}
+
+template <class S>
+void PairList<S>::list_nearby(PairBlock<S>& block, const VectorField& x, int dimensions, std::size_t begin,
+                              std::size_t end, const ClusterOrder& order, const ReachOptions& options,
+                              Scratch& scratch) const {
+    constexpr Index kSlots = kMotionBlock * kClusterSize;
+    const double reach = (options.support + skin_ + far_skin_) * (1.0 + kRounding);
+    scratch.nearby.clear();
+    const bool is_torn = is_wide(extent_of(x, dimensions, begin, end), dimensions, reach);
+    for_each_run_near(order, x, dimensions, begin, end, reach, is_torn, [&](const SlotRun& run) {
+        for (Index j = run.begin / kSlots; j <= (run.end - 1) / kSlots; ++j) {
+            if (scratch.nearby.empty() || scratch.nearby.back() != j) scratch.nearby.push_back(j);
+        }
+    });
+    std::sort(scratch.nearby.begin(), scratch.nearby.end());
+    scratch.nearby.erase(std::unique(scratch.nearby.begin(), scratch.nearby.end()), scratch.nearby.end());
+    block.nearby.assign(scratch.nearby.begin(), scratch.nearby.end());
+}
+
+template <class S>
+bool PairList<S>::covers(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const {
+    if (centres.motion().empty() || neighbours.motion().empty()) return true;
+    const MotionBox all = join(neighbours.motion(), join(centres.motion(), centres.motion().front()));
+    const double together2 = difference2(all, all);
+    if (together2 <= skin_ * skin_) return true;
+    if (!(together2 <= (skin_ + far_skin_) * (skin_ + far_skin_))) return false;
+    return parallel_reduce(
+        blocks_.size(), true,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b) {
+                for (const Index j : blocks_[b].nearby) {
+                    if (difference2(centres.motion()[b], neighbours.motion()[j]) > skin_ * skin_) return false;
+                }
+            }
+            return true;
+        },
+        [](bool a, bool b) { return a && b; });
+}
+
+template <class S>
+void PairList<S>::refresh(const PairVisibility& visibility, std::size_t centres, std::size_t neighbours) {
+    parallel_for(blocks_.size(), 1, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t b = first; b < last; ++b) {
+            PairBlock<S>& block = blocks_[b];
+            if (block.seen.empty()) continue;
+            for (std::size_t c = 0; c < kMotionBlock; ++c) {
+                for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
+                    for (Index e = block.groups[g].begin; e < block.groups[g].end; ++e) {
+                        std::uint16_t seen = 0;
+                        for (std::size_t k = 0; k < kClusterSize * kClusterSize; ++k) {
+                            const std::size_t i = (b * kMotionBlock + c) * kClusterSize + k / kClusterSize;
+                            const std::size_t j = block.entries[e] * kClusterSize + k % kClusterSize;
+                            if (i >= centres || j >= neighbours) continue;
+                            if (visibility.may_interact(static_cast<Index>(i), static_cast<Index>(j)))
+                                seen = static_cast<std::uint16_t>(seen | (1u << k));
+                        }
+                        block.seen[e] = seen;
+                    }
+                }
+            }
+        }
+    });
+}
+
+template <class S>
+bool PairList<S>::has_entries(std::size_t centre_cluster) const {
+    const PairBlock<S>& block = blocks_[centre_cluster / kMotionBlock];
+    const std::size_t c = centre_cluster % kMotionBlock;
+    return block.first_group[c] < block.first_group[c + 1];
+}
+
+template <class S>
+std::size_t PairList<S>::entries() const {
+    std::size_t count = 0;
+    for (const PairBlock<S>& block : blocks_) count += block.entries.size();
+    return count;
+}
+
+template <class S>
+std::size_t PairList<S>::bytes() const {
+    std::size_t bytes = blocks_.capacity() * sizeof(PairBlock<S>);
+    for (const PairBlock<S>& block : blocks_)
+        bytes += block.groups.capacity() * sizeof(PairGroup<S>) +
+                 (block.entries.capacity() + block.nearby.capacity()) * sizeof(Index) +
+                 block.seen.capacity() * sizeof(std::uint16_t);
+    return bytes;
+}
+
+template class PairList<float>;
+template class PairList<double>;
+
+}  // namespace headrace::solver

@@ -1,0 +1,99 @@
+// Who is near whom: for every cluster of centres the clusters that have a point within reach of one of its points.
+//
+// Exact and reused: the reach is the support and a skin, and covers() tells from actual displacements whether a pair
+// within the support could be missing. Displacements are compared block against block, so a body of fluid that is
+// carried along does not wear the list out; only relative motion does.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "server/solver/pairs/cluster_order.h"
+#include "server/solver/pairs/cluster_points.h"
+#include "server/solver/pairs/reach_filter.h"
+#include "server/solver/visibility.h"
+
+namespace headrace::solver {
+
+// Entries [begin, end) that see the centre's cluster displaced by `offset` [m]: from its reference point and period to
+// theirs.
+template <class S>
+struct PairGroup {
+    Index begin{}, end{};
+    std::array<S, 3> offset{};
+};
+
+// The lists of kMotionBlock clusters of centres.
+template <class S>
+struct PairBlock {
+    std::array<Index, kMotionBlock + 1> first_group{};
+    std::vector<PairGroup<S>> groups;
+    std::vector<Index> entries;       // clusters of neighbours
+    std::vector<std::uint16_t> seen;  // of each entry: bit 4 i + j: may they interact? Empty: all may.
+    std::vector<Index> nearby;        // blocks of neighbours that could come within reach
+};
+
+// Which of the pairs that are near enough may interact.
+class PairVisibility {
+  public:
+    virtual ~PairVisibility() = default;
+    virtual bool is_needed_near(const Vec3& centre) const = 0;
+    virtual bool may_interact(Index centre, Index neighbour) const = 0;
+};
+
+struct ReachOptions {
+    double support{};                    // [m]
+    double skin{};                       // [m]
+    Vec3 period{};                       // [m]
+    const PairVisibility* visibility{};  // null: all pairs may interact
+};
+
+template <class S>
+class PairList {
+  public:
+    // x: of the centres, in their order; order: of the neighbours.
+    void build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
+               const ClusterOrder& order, const ReachOptions& options);
+
+    // Are all pairs within the support listed, after the motion of both since build()?
+    bool covers(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const;
+
+    // Asks again which pairs may interact.
+    void refresh(const PairVisibility& visibility, std::size_t centres, std::size_t neighbours);
+
+    const std::vector<PairBlock<S>>& blocks() const { return blocks_; }
+    bool has_entries(std::size_t centre_cluster) const;
+    std::size_t entries() const;
+    std::size_t bytes() const;
+
+  private:
+    struct Scratch {
+        struct Way {  // from the centre's reference point and period to the neighbour's
+            std::array<std::int32_t, 3> reference;
+            std::array<int, 3> image;
+        };
+        std::vector<Index> stamp;  // of each cluster of neighbours: the last look at it
+        Index look{};
+        std::vector<Candidate> candidates;
+        std::vector<Way> ways;
+        std::vector<std::array<S, 3>> offsets;
+        std::vector<Index> counts;
+        std::vector<PairGroup<S>> groups;
+        std::vector<Index> entries, nearby;
+    };
+    void build_block(std::size_t block, const ClusterPoints<S>& centres, const VectorField& x,
+                     const ClusterPoints<S>& neighbours, const ClusterOrder& order, const ReachOptions& options,
+                     Scratch& scratch);
+    void list_nearby(PairBlock<S>& block, const VectorField& x, int dimensions, std::size_t begin, std::size_t end,
+                     const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) const;
+
+    double skin_{}, far_skin_{};  // [m]
+    std::vector<PairBlock<S>> blocks_;
+    std::vector<Scratch> scratch_;  // one per thread
+};
+
+extern template class PairList<float>;
+extern template class PairList<double>;
+
+}  // namespace headrace::solver

@@ -1,0 +1,164 @@
+// The pair loop, written once: a pass says which fields it reads, what a pair contributes and where the sum goes.
+// Compiled for each instruction set (Highway's foreach_target).
+//
+// A vector holds the pairs of some of a centre cluster's points with the four points of a neighbour's: neither gathers
+// nor remainders. Every centre sums over its full neighbourhood in the order of its list, so no thread writes where
+// another does and the sums are the same for any number of threads.
+//
+// A Pass has
+//   kReadsWalls                     whether it sums over wall particles, too
+//   kCentreFields, centre_fields()  arrays of the centres that pair() reads
+//   kFluidFields, fluid_fields()    arrays of the fluid that pair() reads of a neighbour, beside x and V
+//   kWallFields, wall_fields()      the same of the walls
+//   Sums<T>                         accumulators, made of T alone, starting at 0
+//   pair<IsWall>(self, pair, neighbour, sums)   self(f), neighbour(f): field f, a T each
+//   store(i, sums)                  what becomes of the sums of centre i
+#include "server/solver/pair.h"
+#include "server/solver/pairs/lane_loads-inl.h"
+#include "server/solver/pairs/pair_list.h"
+#include "server/solver/parallel.h"
+
+#if defined(HEADRACE_PAIRS_PAIR_SUMS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef HEADRACE_PAIRS_PAIR_SUMS_INL_H
+#undef HEADRACE_PAIRS_PAIR_SUMS_INL_H
+#else
+#define HEADRACE_PAIRS_PAIR_SUMS_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace headrace::solver::HWY_NAMESPACE {
+
+// Fields of points as the loop reads them: of each cluster, field by field, its four numbers.
+template <class S>
+class FieldPack {
+  public:
+    template <std::size_t Fields>
+    void fill(const std::array<const double*, Fields>& fields, std::size_t count) {
+        const std::size_t clusters = (count + kClusterSize - 1) / kClusterSize;
+        packed_.resize(clusters * Fields * kClusterSize);
+        if constexpr (Fields > 0) {
+            parallel_for(clusters, kParticleBlock / kClusterSize, [&](std::size_t first, std::size_t last, int) {
+                const std::size_t whole = std::min(last, count / kClusterSize);
+                for (std::size_t c = first; c < whole; ++c) {
+                    S* to = &packed_[c * Fields * kClusterSize];
+                    for (std::size_t f = 0; f < Fields; ++f, to += kClusterSize) {
+                        const double* from = fields[f] + c * kClusterSize;
+                        for (std::size_t l = 0; l < kClusterSize; ++l) to[l] = static_cast<S>(from[l]);
+                    }
+                }
+                if (whole == last) return;
+                S* to = &packed_[whole * Fields * kClusterSize];
+                for (std::size_t f = 0; f < Fields; ++f) {
+                    for (std::size_t l = 0; l < kClusterSize; ++l) {
+                        const std::size_t i = whole * kClusterSize + l;
+                        *to++ = i < count ? static_cast<S>(fields[f][i]) : S{};
+                    }
+                }
+            });
+        }
+    }
+    const S* data() const { return packed_.data(); }
+
+  private:
+    AlignedArray<S> packed_;
+};
+
+// One kind of neighbours, with the list that leads to them.
+template <class S>
+struct NeighbourSource {
+    const PairList<S>* list{};  // null: none
+    const ClusterPoints<S>* points{};
+    const S* fields{};
+};
+
+// Adds the pairs of a centre cluster's points with one kind of neighbours.
+template <bool IsWall, int D, std::size_t Fields, class S, class Pass, class Self>
+HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<PairLanes<S>, D>& x_i,
+                          std::size_t first_point, const PairBlock<S>& block, std::size_t c,
+                          const NeighbourSource<S>& source, typename Pass::template Sums<PairLanes<S>>& sums) {
+    using T = PairLanes<S>;
+    constexpr std::size_t kRecord = 4 * (D + 1), kFields = 4 * Fields;
+    const S* records = source.points->record(0);
+    for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
+        const PairGroup<S>& group = block.groups[g];
+        std::array<T, D> x;
+        for (int k = 0; k < D; ++k) x[k] = x_i[k] + T(static_cast<double>(group.offset[k]));
+        for (Index e = group.begin; e < group.end; ++e) {
+            const std::size_t j = block.entries[e];
+            const S* record = records + j * kRecord;
+            const S* fields = source.fields + j * kFields;
+            Pair<D, T> pair;
+            for (int k = 0; k < D; ++k) pair.x_ij[k] = x[k] - load_four<S>(record + 4 * k);
+            pair.r2 = dot<D, T>(pair.x_ij, pair.x_ij);
+            pair.r = square_root<S>(pair.r2);
+            pair.V_j = load_four<S>(record + 4 * D);
+            if (!block.seen.empty()) {
+                // Rare, beside thin panels: hidden neighbours have no volume.
+                alignas(64) S seen[T::kCount];
+                for (std::size_t l = 0; l < T::kCount; ++l)
+                    seen[l] = static_cast<S>((block.seen[e] >> (4 * first_point + l)) & 1u);
+                T weight;
+                __builtin_memcpy(&weight.v, seen, sizeof weight.v);
+                pair.V_j *= weight;
+            }
+            FieldsOf<T, Fields> neighbour;
+            for (std::size_t f = 0; f < Fields; ++f) neighbour.field[f] = load_four<S>(fields + 4 * f);
+            pass.template pair<IsWall>(self, pair, neighbour, sums);
+        }
+    }
+}
+
+// The pass for the centres of one block of the lists.
+template <int D, class S, class Pass>
+HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, const NeighbourSource<S>& fluid,
+                            const NeighbourSource<S>& walls, std::size_t b) {
+    using T = PairLanes<S>;
+    using LaneSums = typename Pass::template Sums<T>;
+    using PointSums = typename Pass::template Sums<double>;
+    constexpr std::size_t kAtOnce = T::kCount / 4;
+    constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double);
+    static_assert(sizeof(LaneSums) == kSums * sizeof(T), "Sums has members of its number type only");
+
+    const auto centre_fields = pass.centre_fields();
+    const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
+    for (std::size_t c = first; c < last; ++c) {
+        const std::size_t begin = c * kClusterSize, points = std::min(kClusterSize, centres.size() - begin);
+        for (std::size_t part = 0; part < points; part += kAtOnce) {
+            std::array<T, D> x_i;
+            for (int k = 0; k < D; ++k) x_i[k] = spread_four<S>(centres.record(c) + 4 * k + part);
+            FieldsOf<T, Pass::kCentreFields> self;
+            for (std::size_t f = 0; f < Pass::kCentreFields; ++f) {
+                std::array<double, kClusterSize> four{};
+                for (std::size_t l = 0; l < points; ++l) four[l] = centre_fields[f][begin + l];
+                self.field[f] = spread_four<S>(&four[part]);
+            }
+            LaneSums sums{};
+            add_pairs<false, D, Pass::kFluidFields, S>(pass, self, x_i, part, fluid.list->blocks()[b], c - first, fluid,
+                                                       sums);
+            if constexpr (Pass::kReadsWalls) {
+                if (walls.list != nullptr)
+                    add_pairs<true, D, Pass::kWallFields, S>(pass, self, x_i, part, walls.list->blocks()[b], c - first,
+                                                             walls, sums);
+            }
+            alignas(64) S lanes[kSums][T::kCount];
+            __builtin_memcpy(lanes, &sums, sizeof lanes);
+            for (std::size_t l = 0; l < kAtOnce && part + l < points; ++l) {
+                std::array<double, kSums> total;
+                for (std::size_t s = 0; s < kSums; ++s) {
+                    const S* four = lanes[s] + 4 * l;
+                    total[s] = (static_cast<double>(four[0]) + static_cast<double>(four[1])) +
+                               (static_cast<double>(four[2]) + static_cast<double>(four[3]));
+                }
+                PointSums point;
+                __builtin_memcpy(static_cast<void*>(&point), total.data(), sizeof point);
+                pass.store(static_cast<Index>(begin + part + l), point);
+            }
+        }
+    }
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace headrace::solver::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

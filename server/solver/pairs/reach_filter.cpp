@@ -1,0 +1,72 @@
+#include "server/solver/pairs/reach_filter.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "server/solver/pairs/reach_filter.cpp"
+#include "hwy/foreach_target.h"
+// After it, since they are compiled for each target.
+#include "server/solver/pairs/lane_loads-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace headrace::solver::HWY_NAMESPACE {
+
+template <class S, int D>
+std::size_t filter(const ReachQuery<S>& query, Candidate* candidates, std::size_t count) {
+    using T = PairLanes<S>;
+    constexpr std::size_t kAtOnce = T::kCount / 4, kParts = 4 / kAtOnce;
+    // Points that are not there are put where the first is.
+    std::array<std::array<T, D>, kParts> x_i;
+    for (int k = 0; k < D; ++k) {
+        std::array<S, 4> four;
+        for (std::size_t l = 0; l < 4; ++l) four[l] = query.centre[4 * k + (l < query.centre_points ? l : 0)];
+        for (std::size_t part = 0; part < kParts; ++part) x_i[part][k] = spread_four<S>(&four[part * kAtOnce]);
+    }
+    const T reach2(query.reach * query.reach);
+    std::size_t kept = 0;
+    for (std::size_t c = 0; c < count; ++c) {
+        const S* record = query.records + candidates[c].cluster * std::size_t{4 * (D + 1)};
+        const std::array<S, 3>& offset = query.offsets[candidates[c].offset];
+        bool is_near = false;
+        for (std::size_t part = 0; part < kParts; ++part) {
+            T r2(0.0);
+            for (int k = 0; k < D; ++k) {
+                const T x_ij = x_i[part][k] + (T(offset[k]) - load_four<S>(record + 4 * k));
+                r2 += x_ij * x_ij;
+            }
+            const auto hits = r2 < reach2;
+            auto any = hits[0];
+            for (std::size_t l = 1; l < T::kCount; ++l) any |= hits[l];
+            is_near |= any != 0;
+        }
+        candidates[kept] = candidates[c];
+        kept += is_near;
+    }
+    return kept;
+}
+
+std::size_t filter_float(const ReachQuery<float>& query, Candidate* candidates, std::size_t count) {
+    return query.dimensions == 2 ? filter<float, 2>(query, candidates, count)
+                                 : filter<float, 3>(query, candidates, count);
+}
+std::size_t filter_double(const ReachQuery<double>& query, Candidate* candidates, std::size_t count) {
+    return query.dimensions == 2 ? filter<double, 2>(query, candidates, count)
+                                 : filter<double, 3>(query, candidates, count);
+}
+
+}  // namespace headrace::solver::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace headrace::solver {
+
+HWY_EXPORT(filter_float);
+HWY_EXPORT(filter_double);
+
+std::size_t filter_reach(const ReachQuery<float>& query, Candidate* candidates, std::size_t count) {
+    return HWY_DYNAMIC_DISPATCH(filter_float)(query, candidates, count);
+}
+std::size_t filter_reach(const ReachQuery<double>& query, Candidate* candidates, std::size_t count) {
+    return HWY_DYNAMIC_DISPATCH(filter_double)(query, candidates, count);
+}
+
+}  // namespace headrace::solver
+#endif
