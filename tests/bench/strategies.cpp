@@ -11,11 +11,13 @@
 #include <iostream>
 #include <numeric>
 #include <random>
+#include <thread>
 
 #include "server/solver/eos.h"
 #include "server/solver/integrator/leapfrog.h"
 #include "server/solver/models/thesis_parameters.h"
 #include "server/solver/parallel.h"
+#include "tests/bench/foreign_load.h"
 #include "tests/bench/neighbour_count.h"
 #include "tests/bench/strategies_report.h"
 #include "tests/bench/strategy_sums.h"
@@ -36,16 +38,18 @@ constexpr unsigned kSeed = 20100;
 
 constexpr double kLongestAllPairs = 20.0;  // [s] per step
 constexpr double kLongStep = 5.0;          // [s] beyond this the first step is the measurement
-constexpr double kWindow = 0.25;           // [s] aimed at
-constexpr double kTotal = 4.0;             // [s] of all windows of one line, aimed at
-constexpr int kMostSteps = 20;             // per window
-constexpr int kFewestWindows = 3, kMostWindows = 7;
+constexpr double kWindow = 0.1;            // [s] aimed at
+constexpr int kMostSteps = 200;            // per window
+constexpr int kWindows = 5;                // undisturbed ones of each line
+constexpr double kPatience = 30.0;         // [s] spent on a size, then lines without a quiet window are left out
+constexpr double kDisturbed = 0.3;         // cores that others took from the team; a tick more than the clock's error
 
 struct Options {
     std::size_t largest{1000000};
     std::vector<int> threads;
     std::vector<int> dimensions{3, 2};
     std::vector<double> supports{0.0, 3.0};
+    bool only_draws{false};
     std::string folder{std::string(HEADRACE_SOURCE_DIR) + "/tests/bench/results"};
 };
 
@@ -154,8 +158,9 @@ struct Contest {
     Isa isa{};
     int threads{1};
     std::unique_ptr<StrategySums> sums;
-    int steps{1}, windows{1};
-    double best{};  // [s] per step; 0: not measured yet
+    int steps{1};
+    int quiet{};    // windows nobody disturbed
+    double best{};  // [s] per step of the quiet ones; 0: none
 };
 
 double time_steps(Stepper& stepper, Contest& one, int steps) {
@@ -181,7 +186,20 @@ std::vector<Contest> make_contests(int dimensions, const std::vector<int>& threa
     return contests;
 }
 
-// Turns, not blocks: a slow minute of the machine hits every strategy alike.
+// Times a window. Was it quiet? A disturbed one does not count.
+bool time_window(Stepper& stepper, Contest& one) {
+    omp_set_num_threads(one.threads);
+    stepper.restore();
+    time_steps(stepper, one, 1);  // wakes the team, warms the caches
+    const ForeignLoad others;
+    const double seconds = time_steps(stepper, one, one.steps) / one.steps;
+    const double spare = std::max(0, omp_get_num_procs() - one.threads);
+    const bool is_quiet = others.cores() - spare < kDisturbed;
+    if (is_quiet && (one.best == 0.0 || seconds < one.best)) one.best = seconds;
+    return is_quiet;
+}
+
+// Turns, not blocks: a slow minute of the machine hits every strategy alike. Where others need the cores it waits.
 void measure(Stepper& stepper, std::vector<Contest>& contests) {
     for (Contest& one : contests) {
         omp_set_num_threads(one.threads);
@@ -189,26 +207,30 @@ void measure(Stepper& stepper, std::vector<Contest>& contests) {
         const double first_step = time_steps(stepper, one, 1);  // allocates, too
         if (first_step > kLongStep) {
             one.best = first_step;
-            one.windows = 0;
+            one.quiet = kWindows;
             continue;
         }
-        one.steps = std::clamp(static_cast<int>(kWindow / first_step), 1, kMostSteps);
-        one.windows = std::clamp(static_cast<int>(kTotal / (first_step * one.steps)), kFewestWindows, kMostWindows);
+        const double next_step = time_steps(stepper, one, 1);
+        one.steps = std::clamp(static_cast<int>(std::ceil(kWindow / next_step)), 1, kMostSteps);
     }
-    for (int turn = 0; turn < kMostWindows; ++turn) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto is_measured = [](const Contest& one) { return one.quiet >= kWindows; };
+    while (!std::all_of(contests.begin(), contests.end(), is_measured)) {
+        bool all_quiet = true;
         for (Contest& one : contests) {
-            if (turn >= one.windows) continue;
-            omp_set_num_threads(one.threads);
-            stepper.restore();
-            time_steps(stepper, one, 1);  // wakes the team, warms the caches
-            const double seconds = time_steps(stepper, one, one.steps) / one.steps;
-            if (one.best == 0.0 || seconds < one.best) one.best = seconds;
+            if (is_measured(one)) continue;
+            const bool is_quiet = time_window(stepper, one);
+            one.quiet += is_quiet;
+            all_quiet = all_quiet && is_quiet;
         }
+        if (std::chrono::steady_clock::now() - start > std::chrono::duration<double>(kPatience)) break;
+        if (!all_quiet) std::this_thread::sleep_for(std::chrono::milliseconds(500));
     }
 }
 
 // All sizes of one dimension and support. Prints as it goes.
-void run_ladder(int dimensions, double support_over_dp, const Options& options, std::vector<StrategyRow>& rows) {
+std::vector<StrategyRow> run_ladder(int dimensions, double support_over_dp, const Options& options) {
+    std::vector<StrategyRow> rows;
     double all_pairs = 0.0;  // [s] per step and pair, of the size before
     for (const int edge : find_edges(dimensions, options.largest)) {
         omp_set_num_threads(1);
@@ -219,6 +241,11 @@ void run_ladder(int dimensions, double support_over_dp, const Options& options, 
         measure(stepper, contests);
         const double neighbours = stepper.count_neighbours();
         for (const Contest& one : contests) {
+            if (one.quiet == 0) {
+                std::cout << "   " << strategy_name(one.strategy) << " on " << one.threads << " threads with "
+                          << stepper.size() << " particles left out: others were busy\n";
+                continue;
+            }
             if (one.strategy == Strategy::all_pairs) all_pairs = one.best / (size * size);
             rows.push_back({one.strategy, dimensions, stepper.size(), stepper.support_over_dp(), neighbours,
                             one.threads, one.isa, one.steps, one.best * 1e3});
@@ -228,6 +255,19 @@ void run_ladder(int dimensions, double support_over_dp, const Options& options, 
             std::cout << "   all_pairs left out: a step would take some " << std::lround(all_pairs * size * size)
                       << " s\n";
     }
+    return rows;
+}
+
+// Puts the lines of a ladder in the place of those measured before.
+void replace_lines(std::vector<StrategyRow>& rows, const std::vector<StrategyRow>& ladder) {
+    const auto is_of_ladder = [&](const StrategyRow& row) {
+        return row.dimensions == ladder.front().dimensions &&
+               std::abs(row.support_over_dp - ladder.front().support_over_dp) < 0.005;  // the file has four digits
+    };
+    const auto first = std::find_if(rows.begin(), rows.end(), is_of_ladder);
+    const auto place = std::distance(rows.begin(), first);
+    std::erase_if(rows, is_of_ladder);
+    rows.insert(rows.begin() + place, ladder.begin(), ladder.end());
 }
 
 void define_options(CLI::App& app, Options& options) {
@@ -245,6 +285,7 @@ void define_options(CLI::App& app, Options& options) {
         ->delimiter(',')
         ->check(CLI::Range(0.0, 20.0))
         ->capture_default_str();
+    app.add_flag("--draw", options.only_draws, "Only draw what strategies.csv holds");
     app.add_option("--out", options.folder, "Folder of strategies.csv and the diagrams")->capture_default_str();
 }
 
@@ -254,7 +295,9 @@ int run_strategies(int argc, char** argv) {
     CLI::App app{
         "Times a step of the thesis model by the strategies of Staubach 2010: all pairs, linked cells, with symmetry,\n"
         "with SIMD, and the last two over threads (its Figures 4.4 and 4.5). The state is a lattice at rest density,\n"
-        "jittered, with random velocities. Writes strategies.csv, strategies_particles.png, strategies_threads.png."};
+        "jittered, with random velocities. Writes strategies.csv, strategies_particles.png, strategies_threads.png. "
+        "Lines\n"
+        "of other dimensions and supports that the table holds stay."};
     Options options;
     define_options(app, options);
     CLI11_PARSE(app, argc, argv);
@@ -264,16 +307,19 @@ int run_strategies(int argc, char** argv) {
     }
     std::sort(options.threads.begin(), options.threads.end());
 
-    std::vector<StrategyRow> rows;
-    std::cout << strategies_table_head() << '\n';
-    for (const int dimensions : options.dimensions)
-        for (const double support : options.supports) run_ladder(dimensions, support, options, rows);
-
     std::filesystem::create_directories(options.folder);
     const std::string table = options.folder + "/strategies.csv";
-    if (!(std::ofstream(table) << strategies_csv(rows))) {
-        std::cerr << "headrace_bench: cannot write " << table << '\n';
-        return 2;
+    std::vector<StrategyRow> rows = read_strategies_csv(table);
+    if (!options.only_draws) std::cout << strategies_table_head() << '\n';
+    for (const int dimensions : options.dimensions) {
+        for (const double support : options.supports) {
+            if (options.only_draws) continue;
+            replace_lines(rows, run_ladder(dimensions, support, options));
+            if (!(std::ofstream(table) << strategies_csv(rows))) {
+                std::cerr << "headrace_bench: cannot write " << table << '\n';
+                return 2;
+            }
+        }
     }
     return draw_strategies(rows, options.folder) ? 0 : 1;
 }

@@ -1,9 +1,11 @@
 #include "tests/bench/strategies_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <iostream>
 #include <set>
@@ -41,7 +43,7 @@ std::vector<Panel> find_panels(const std::vector<StrategyRow>& rows) {
     std::vector<Panel> panels;
     for (const StrategyRow& row : rows) {
         auto panel = std::find_if(panels.begin(), panels.end(), [&](const Panel& one) {
-            return one.dimensions == row.dimensions && one.support_over_dp == row.support_over_dp;
+            return one.dimensions == row.dimensions && std::abs(one.support_over_dp - row.support_over_dp) < 0.005;
         });
         if (panel == panels.end()) panel = panels.insert(panels.end(), {row.dimensions, row.support_over_dp, {}});
         panel->rows.push_back(row);
@@ -203,6 +205,26 @@ std::string strategies_csv(const std::vector<StrategyRow>& rows) {
                     row.support_over_dp, row.neighbours, row.threads, std::string(solver::isa_name(row.isa)).c_str(),
                     row.steps, row.ms_per_step, row.Mpsps_per_core());
     return text;
+}
+
+std::vector<StrategyRow> read_strategies_csv(const std::string& path) {
+    std::vector<StrategyRow> rows;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        StrategyRow row;
+        char strategy[32], isa[32];
+        if (std::sscanf(line.c_str(), "%*[^,],thesis,%31[^,],%d,%zu,%lf,%lf,%d,%31[^,],%d,%lf", strategy,
+                        &row.dimensions, &row.particles, &row.support_over_dp, &row.neighbours, &row.threads, isa,
+                        &row.steps, &row.ms_per_step) != 9)
+            continue;
+        for (const Strategy one : {Strategy::all_pairs, Strategy::linked_cells, Strategy::symmetry,
+                                   Strategy::coloured_layers, Strategy::simd})
+            if (strategy_name(one) == strategy) row.strategy = one;
+        for (const solver::Isa one : {solver::Isa::baseline, solver::Isa::avx2, solver::Isa::avx512})
+            if (solver::isa_name(one) == isa) row.isa = one;
+        rows.push_back(row);
+    }
+    return rows;
 }
 
 bool draw_strategies(const std::vector<StrategyRow>& rows, const std::string& folder) {

@@ -28,6 +28,8 @@ struct StrategyRow {
 std::string strategies_table_head();
 std::string strategies_table_line(const StrategyRow& row);
 std::string strategies_csv(const std::vector<StrategyRow>& rows);
+// The lines of such a file that can be read; none where there is no file.
+std::vector<StrategyRow> read_strategies_csv(const std::string& path);
 
 // strategies_particles.png and strategies_threads.png in `folder`, a panel for each dimension and support. Without
 // gnuplot, or where there is only one thread count to show, says so and draws nothing. False: gnuplot failed.

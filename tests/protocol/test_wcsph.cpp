@@ -138,10 +138,11 @@ TEST_CASE("Wcsph.TheFloorBearsTheWeightOfStillWater") {
     CHECK(speed / (kGravity * duration) < 2e-4);
     const auto mean = [&](std::size_t column) { return integral(load, column, [](double) { return 1.0; }) / duration; };
     CHECK(mean(2) / weight == Approx(-1.0).epsilon(1e-3));
-    CHECK(std::abs(mean(1) / weight) < 1e-9);  // mirror images of each other, to round-off that grows
+    // Mirror images of each other, to the round-off of single precision, which grows.
+    CHECK(std::abs(mean(1) / weight) < 1e-6);
     // The load is even along the channel, so it acts in its middle: torque = r x F, about both points.
     for (std::size_t k = 0; k < load.size(); ++k) {
-        CHECK(at(load[k], 3) == Approx(0.1 * at(load[k], 2)).epsilon(1e-9));
+        CHECK(at(load[k], 3) == Approx(0.1 * at(load[k], 2)).epsilon(1e-6));
         CHECK(at(turned[k], 3) ==
               Approx(at(load[k], 3) - (0.1 * at(load[k], 2) - 0.05 * at(load[k], 1))).margin(1e-12 * weight));
     }

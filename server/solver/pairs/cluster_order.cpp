@@ -10,10 +10,6 @@ namespace {
 // others; in 2D four points are a square.
 constexpr double kRowWidth3d = 1.8, kRowWidth2d = 2.0, kBinLength3d = 0.4, kBinLength2d = 0.5;
 
-// Beyond this bin, and for places that are not numbers, points share the outermost bin: a faulted state may be looked
-// at without harm.
-constexpr double kOutermost = 1e15;
-
 }  // namespace
 
 void ClusterOrder::build(const VectorField& x, const std::vector<Index>& id, int dimensions, double spacing,
@@ -47,13 +43,6 @@ void ClusterOrder::divide(double spacing, const Domain& domain) {
         }
         inv_side_[axis] = 1.0 / side_[axis];
     }
-}
-
-std::int64_t ClusterOrder::coordinate(double x, int axis) const {
-    const double bin = (x - origin_[axis]) * inv_side_[axis];
-    if (!(bin > -kOutermost)) return static_cast<std::int64_t>(-kOutermost);
-    const auto truncated = static_cast<std::int64_t>(std::min(bin, kOutermost));
-    return truncated - (bin < static_cast<double>(truncated));  // floor, without a call
 }
 
 ClusterOrder::Bin ClusterOrder::find_bin(const VectorField& x, std::size_t i) const {

@@ -58,7 +58,15 @@ class ClusterOrder {
     // Coordinates that compare lexicographically in the order of storage.
     static Bin in_walking_order(const Bin& bin);
     std::size_t number_of(const Bin& bin) const;
-    std::int64_t coordinate(double x, int axis) const;
+    std::int64_t coordinate(double x, int axis) const {
+        // Beyond this bin, and for places that are not numbers, points share the outermost bin: a faulted state may be
+        // looked at without harm.
+        constexpr double kOutermost = 1e15;
+        const double bin = (x - origin_[axis]) * inv_side_[axis];
+        if (!(bin > -kOutermost)) return static_cast<std::int64_t>(-kOutermost);
+        const auto truncated = static_cast<std::int64_t>(std::min(bin, kOutermost));
+        return truncated - (bin < static_cast<double>(truncated));  // floor, without a call
+    }
     void divide(double spacing, const Domain& domain);
     void measure(const VectorField& x, std::size_t count);
     void order_dense(const VectorField& x, const std::vector<Index>& id);

@@ -41,6 +41,11 @@ class ClusterPoints {
     const S* record(std::size_t cluster) const { return &records_[cluster * stride_]; }
 
     const std::array<std::int32_t, 3>& reference(std::size_t cluster) const { return reference_[cluster]; }
+    // The same as a number, unique among reference points within 2^20 steps of each other.
+    std::uint64_t reference_key(std::size_t cluster) const {
+        const auto part = [&](int k) { return static_cast<std::uint64_t>(reference_[cluster][k] & 0x1fffff); };
+        return part(0) | part(1) << 21 | part(2) << 42;
+    }
     double reference_step() const { return step_; }  // [m]
 
     const std::vector<MotionBox>& motion() const { return motion_; }  // per block of clusters, since start()

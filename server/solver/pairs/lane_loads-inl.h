@@ -61,6 +61,22 @@ HWY_INLINE PairLanes<S> spread_four(const From* numbers) {
     return lanes;
 }
 
+// Is any a below b?
+template <class S>
+HWY_INLINE bool is_any_below(const PairLanes<S>& a, const PairLanes<S>& b) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    const hn::CappedTag<S, kPairLanes<S>> d;
+    hn::Vec<decltype(d)> u, v;
+    u.raw = (decltype(u.raw))a.v;
+    v.raw = (decltype(v.raw))b.v;
+    return !hn::AllFalse(d, hn::Lt(u, v));
+#else
+    bool any = false;
+    for (std::size_t k = 0; k < kPairLanes<S>; ++k) any |= a.v[k] < b.v[k];
+    return any;
+#endif
+}
+
 template <class S>
 HWY_INLINE PairLanes<S> square_root(const PairLanes<S>& a) {
     PairLanes<S> root;

@@ -43,15 +43,14 @@ bool is_wide(const Extent& extent, int dimensions, double reach) {
 // Runs near the points [begin, end): near the box around them all, or near each of them.
 template <class Visit>
 void for_each_run_near(const ClusterOrder& order, const VectorField& x, int dimensions, std::size_t begin,
-                       std::size_t end, double reach, bool is_torn, Visit&& visit) {
+                       std::size_t end, const Extent& extent, double reach, bool is_torn, Visit&& visit) {
     if (!is_torn) {
-        const Extent extent = extent_of(x, dimensions, begin, end);
         order.for_each_run(extent.low, extent.high, reach, visit);
         return;
     }
     for (std::size_t i = begin; i < end; ++i) {
-        const Extent extent = extent_of(x, dimensions, i, i + 1);
-        order.for_each_run(extent.low, extent.high, reach, visit);
+        const Extent point = extent_of(x, dimensions, i, i + 1);
+        order.for_each_run(point.low, point.high, reach, visit);
     }
 }
 
@@ -112,6 +111,15 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     scratch.groups.clear();
     scratch.entries.clear();
     const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
+    list_nearby(block, x, centres.dimensions(), first * kClusterSize, std::min(last * kClusterSize, centres.size()),
+                order, options, scratch);
+    block.first_group.fill(0);
+    if (block.nearby.empty()) {
+        block.groups.clear();
+        block.entries.clear();
+        block.seen.clear();
+        return;
+    }
     bool needs_visibility = false;
     for (std::size_t c = first; c < last; ++c) {
         block.first_group[c - first] = static_cast<Index>(scratch.groups.size());
@@ -122,29 +130,40 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
         scratch.ways.clear();
         scratch.offsets.clear();
         std::array<int, 3> image{};
+        scratch.images.assign(1, image);
         ++scratch.look;
+        Index which = 0;  // of the images
+        std::size_t way = 0;
         const bool is_torn = is_wide(extent, centres.dimensions(), reach);
-        for_each_run_near(order, x, centres.dimensions(), begin, end, reach, is_torn, [&](const SlotRun& run) {
-            if (run.image != image) ++scratch.look;
-            image = run.image;
+        for_each_run_near(order, x, centres.dimensions(), begin, end, extent, reach, is_torn, [&](const SlotRun& run) {
+            if (run.image != image) {
+                ++scratch.look;
+                image = run.image;
+                const auto known = std::find(scratch.images.begin(), scratch.images.end(), image);
+                which = static_cast<Index>(known - scratch.images.begin());
+                if (known == scratch.images.end()) scratch.images.push_back(image);
+            }
             for (Index j = run.begin / kClusterSize; j <= (run.end - 1) / kClusterSize; ++j) {
                 if (scratch.stamp[j] == scratch.look) continue;
                 scratch.stamp[j] = scratch.look;
-                const auto& reference = neighbours.reference(j);
-                std::size_t way = scratch.ways.size();
-                while (way > 0 &&
-                       !(scratch.ways[way - 1].reference == reference && scratch.ways[way - 1].image == image))
-                    --way;
-                if (way == 0) {
-                    scratch.ways.push_back({reference, image});
-                    std::array<S, 3> offset{};
-                    for (int k = 0; k < centres.dimensions(); ++k)
-                        offset[k] = static_cast<S>((centres.reference(c)[k] - reference[k]) * centres.reference_step() -
-                                                   image[k] * options.period[k]);
-                    scratch.offsets.push_back(offset);
-                    way = scratch.ways.size();
+                const std::uint64_t reference = neighbours.reference_key(j);
+                const auto leads_there = [&](std::size_t w) {
+                    return w < scratch.ways.size() && scratch.ways[w].reference == reference &&
+                           scratch.ways[w].image == which;
+                };
+                if (!leads_there(way)) {
+                    for (way = 0; way < scratch.ways.size() && !leads_there(way);) ++way;
+                    if (way == scratch.ways.size()) {
+                        scratch.ways.push_back({reference, which});
+                        std::array<S, 3> offset{};
+                        for (int k = 0; k < centres.dimensions(); ++k)
+                            offset[k] = static_cast<S>((centres.reference(c)[k] - neighbours.reference(j)[k]) *
+                                                           centres.reference_step() -
+                                                       image[k] * options.period[k]);
+                        scratch.offsets.push_back(offset);
+                    }
                 }
-                scratch.candidates.push_back({j, static_cast<Index>(way - 1)});
+                scratch.candidates.push_back({j, static_cast<Index>(way)});
             }
         });
         if (is_torn) drop_repeated(scratch.candidates);
@@ -155,10 +174,10 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
         for (std::size_t k = 0; k < kept; ++k) ++scratch.counts[scratch.candidates[k].offset + 1];
         const auto base = static_cast<Index>(scratch.entries.size());
         scratch.counts[0] = base;
-        for (std::size_t way = 0; way < scratch.ways.size(); ++way) {
-            scratch.counts[way + 1] += scratch.counts[way];
-            if (scratch.counts[way + 1] > scratch.counts[way])
-                scratch.groups.push_back({scratch.counts[way], scratch.counts[way + 1], scratch.offsets[way]});
+        for (std::size_t w = 0; w < scratch.ways.size(); ++w) {
+            scratch.counts[w + 1] += scratch.counts[w];
+            if (scratch.counts[w + 1] > scratch.counts[w])
+                scratch.groups.push_back({scratch.counts[w], scratch.counts[w + 1], scratch.offsets[w]});
         }
         scratch.entries.resize(base + kept);
         for (std::size_t k = 0; k < kept; ++k)
@@ -170,8 +189,70 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     block.entries.assign(scratch.entries.begin(), scratch.entries.end());
     block.seen.clear();
     if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
-    list_nearby(block, x, centres.dimensions(), first * kClusterSize, std::min(last * kClusterSize, centres.size()),
-                order, options, scratch);
+}
+
+template <class S>
+void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clusters) {
+    skin_ = list.skin_;
+    far_skin_ = list.far_skin_;
+    blocks_.resize((centre_clusters + kMotionBlock - 1) / kMotionBlock);
+    scratch_.resize(static_cast<std::size_t>(max_threads()));
+    std::vector<Index> first(blocks_.size() * kMotionBlock + 1, 0);  // of each centre's entries
+    for (const PairBlock<S>& block : list.blocks_) {
+        for (const Index j : block.entries) ++first[j + 1];
+    }
+    for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+    std::vector<Reverse> entries(first.back());
+    std::vector<Index> next(first.begin(), first.end() - 1);
+    for (std::size_t b = 0; b < list.blocks_.size(); ++b) {
+        const PairBlock<S>& block = list.blocks_[b];
+        for (std::size_t c = 0; c < kMotionBlock; ++c) {
+            for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
+                const PairGroup<S>& group = block.groups[g];
+                const Reverse reverse{static_cast<Index>(b * kMotionBlock + c),
+                                      {-group.offset[0], -group.offset[1], -group.offset[2]},
+                                      !block.seen.empty()};
+                for (Index e = group.begin; e < group.end; ++e) entries[next[block.entries[e]]++] = reverse;
+            }
+        }
+    }
+    parallel_for(blocks_.size(), 4, [&](std::size_t begin, std::size_t end, int thread) {
+        for (std::size_t b = begin; b < end; ++b)
+            build_transposed_block(b, first, entries, scratch_[static_cast<std::size_t>(thread)]);
+    });
+}
+
+// Entries of one offset are a group, in the order in which they come.
+template <class S>
+void PairList<S>::build_transposed_block(std::size_t b, const std::vector<Index>& first,
+                                         const std::vector<Reverse>& entries, Scratch& scratch) {
+    PairBlock<S>& block = blocks_[b];
+    block.nearby.clear();
+    scratch.groups.clear();
+    scratch.entries.clear();
+    bool needs_visibility = false;
+    for (std::size_t c = 0; c < kMotionBlock; ++c) {
+        block.first_group[c] = static_cast<Index>(scratch.groups.size());
+        scratch.offsets.clear();
+        const Index begin = first[b * kMotionBlock + c], end = first[b * kMotionBlock + c + 1];
+        for (Index e = begin; e < end; ++e) {
+            needs_visibility |= entries[e].needs_visibility;
+            if (std::find(scratch.offsets.begin(), scratch.offsets.end(), entries[e].offset) == scratch.offsets.end())
+                scratch.offsets.push_back(entries[e].offset);
+        }
+        for (const std::array<S, 3>& offset : scratch.offsets) {
+            const auto from = static_cast<Index>(scratch.entries.size());
+            for (Index e = begin; e < end; ++e) {
+                if (entries[e].offset == offset) scratch.entries.push_back(entries[e].cluster);
+            }
+            scratch.groups.push_back({from, static_cast<Index>(scratch.entries.size()), offset});
+        }
+    }
+    block.first_group[kMotionBlock] = static_cast<Index>(scratch.groups.size());
+    block.groups.assign(scratch.groups.begin(), scratch.groups.end());
+    block.entries.assign(scratch.entries.begin(), scratch.entries.end());
+    block.seen.clear();
+    if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
 }
 
 template <class S>
@@ -181,8 +262,9 @@ void PairList<S>::list_nearby(PairBlock<S>& block, const VectorField& x, int dim
     constexpr Index kSlots = kMotionBlock * kClusterSize;
     const double reach = (options.support + skin_ + far_skin_) * (1.0 + kRounding);
     scratch.nearby.clear();
-    const bool is_torn = is_wide(extent_of(x, dimensions, begin, end), dimensions, reach);
-    for_each_run_near(order, x, dimensions, begin, end, reach, is_torn, [&](const SlotRun& run) {
+    const Extent extent = extent_of(x, dimensions, begin, end);
+    const bool is_torn = is_wide(extent, dimensions, reach);
+    for_each_run_near(order, x, dimensions, begin, end, extent, reach, is_torn, [&](const SlotRun& run) {
         for (Index j = run.begin / kSlots; j <= (run.end - 1) / kSlots; ++j) {
             if (scratch.nearby.empty() || scratch.nearby.back() != j) scratch.nearby.push_back(j);
         }

@@ -56,6 +56,9 @@ class PairList {
     void build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
                const ClusterOrder& order, const ReachOptions& options);
 
+    // The same pairs with centres and neighbours exchanged.
+    void build_transposed(const PairList& list, std::size_t centre_clusters);
+
     // Are all pairs within the support listed, after the motion of both since build()?
     bool covers(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const;
 
@@ -70,18 +73,26 @@ class PairList {
   private:
     struct Scratch {
         struct Way {  // from the centre's reference point and period to the neighbour's
-            std::array<std::int32_t, 3> reference;
-            std::array<int, 3> image;
+            std::uint64_t reference;
+            Index image;  // which of the centre's images, counted as they come
         };
         std::vector<Index> stamp;  // of each cluster of neighbours: the last look at it
         Index look{};
         std::vector<Candidate> candidates;
         std::vector<Way> ways;
+        std::vector<std::array<int, 3>> images;
         std::vector<std::array<S, 3>> offsets;
         std::vector<Index> counts;
         std::vector<PairGroup<S>> groups;
         std::vector<Index> entries, nearby;
     };
+    struct Reverse {  // an entry seen from the other side
+        Index cluster{};
+        std::array<S, 3> offset{};
+        bool needs_visibility{};
+    };
+    void build_transposed_block(std::size_t block, const std::vector<Index>& first, const std::vector<Reverse>& entries,
+                                Scratch& scratch);
     void build_block(std::size_t block, const ClusterPoints<S>& centres, const VectorField& x,
                      const ClusterPoints<S>& neighbours, const ClusterOrder& order, const ReachOptions& options,
                      Scratch& scratch);

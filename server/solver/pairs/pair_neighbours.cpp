@@ -20,11 +20,11 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
         walls_ = {};
         return;
     }
-    start(walls_, input.walls);
+    if (input.has_new_walls) start(walls_, input.walls);
     reach.visibility = input.fluid_to_wall;
     fluid_to_wall_.build(fluid_, *input.fluid.x, walls_, *input.walls.order, reach);
-    reach.visibility = input.wall_to_fluid;
-    wall_to_fluid_.build(walls_, *input.walls.x, fluid_, *input.fluid.order, reach);
+    wall_to_fluid_.build_transposed(fluid_to_wall_, walls_.clusters());
+    if (input.wall_to_fluid != nullptr) wall_to_fluid_.refresh(*input.wall_to_fluid, walls_.size(), fluid_.size());
 }
 
 template <class S>

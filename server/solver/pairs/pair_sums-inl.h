@@ -7,6 +7,7 @@
 //
 // A Pass has
 //   kReadsWalls                     whether it sums over wall particles, too
+//   kIsOfWalls                      whether its centres are wall particles, most of which may have no neighbours
 //   kCentreFields, centre_fields()  arrays of the centres that pair() reads
 //   kFluidFields, fluid_fields()    arrays of the fluid that pair() reads of a neighbour, beside x and V
 //   kWallFields, wall_fields()      the same of the walls
@@ -123,6 +124,11 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
     const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
     for (std::size_t c = first; c < last; ++c) {
         const std::size_t begin = c * kClusterSize, points = std::min(kClusterSize, centres.size() - begin);
+        const PairBlock<S>& block = fluid.list->blocks()[b];
+        if (Pass::kIsOfWalls && block.first_group[c - first] == block.first_group[c - first + 1]) {
+            for (std::size_t l = 0; l < points; ++l) pass.store(static_cast<Index>(begin + l), PointSums{});
+            continue;
+        }
         for (std::size_t part = 0; part < points; part += kAtOnce) {
             std::array<T, D> x_i;
             for (int k = 0; k < D; ++k) x_i[k] = spread_four<S>(centres.record(c) + 4 * k + part);
@@ -133,8 +139,7 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
                 self.field[f] = spread_four<S>(&four[part]);
             }
             LaneSums sums{};
-            add_pairs<false, D, Pass::kFluidFields, S>(pass, self, x_i, part, fluid.list->blocks()[b], c - first, fluid,
-                                                       sums);
+            add_pairs<false, D, Pass::kFluidFields, S>(pass, self, x_i, part, block, c - first, fluid, sums);
             if constexpr (Pass::kReadsWalls) {
                 if (walls.list != nullptr)
                     add_pairs<true, D, Pass::kWallFields, S>(pass, self, x_i, part, walls.list->blocks()[b], c - first,

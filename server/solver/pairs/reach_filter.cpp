@@ -32,10 +32,7 @@ std::size_t filter(const ReachQuery<S>& query, Candidate* candidates, std::size_
                 const T x_ij = x_i[part][k] + (T(offset[k]) - load_four<S>(record + 4 * k));
                 r2 += x_ij * x_ij;
             }
-            const auto hits = r2 < reach2;
-            auto any = hits[0];
-            for (std::size_t l = 1; l < T::kCount; ++l) any |= hits[l];
-            is_near |= any != 0;
+            is_near |= is_any_below<S>(r2, reach2);
         }
         candidates[kept] = candidates[c];
         kept += is_near;

@@ -86,7 +86,7 @@ struct GeometryOptions {
 // HasGradients: velocity gradients, and what follows from them: the shift and the strain rate.
 template <int D, class Kernel, bool HasGradients>
 struct GeometryPass {
-    static constexpr bool kReadsWalls = true;
+    static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kFluidFields = HasGradients ? 1 + D : 1, kCentreFields = kFluidFields;  // delta, v
     static constexpr std::size_t kWallFields = HasGradients ? 2 + 2 * D : 1;  // delta, v, n, no_slip
 
@@ -210,7 +210,7 @@ template <int D, class Kernel, DensityDiffusion Diffusion>
 struct ContinuityPass {
     static constexpr bool kIsDiffusive = Diffusion != DensityDiffusion::none;
     static constexpr bool kIsAntuono = Diffusion == DensityDiffusion::antuono;
-    static constexpr bool kReadsWalls = true;
+    static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kFluidFields = D + (kIsDiffusive ? 1 : 0) + (kIsAntuono ? D : 0);
     static constexpr std::size_t kWallFields = D;
     static constexpr std::size_t kCentreFields = kFluidFields + symmetric_size(D);  // the fluid's, and B
@@ -286,7 +286,7 @@ struct PressureOptions {
 
 template <int D, class Kernel, bool IsAdjoint, bool HasAlpha>
 struct PressurePass {
-    static constexpr bool kReadsWalls = true;
+    static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kPressureFields = IsAdjoint ? symmetric_size(D) : 1;
     static constexpr std::size_t kFluidFields = kPressureFields + (HasAlpha ? D + symmetric_size(D) : 0);
     static constexpr std::size_t kWallFields = 1;
@@ -384,7 +384,7 @@ struct ViscosityOptions {
 // Adds to a_slow.
 template <int D, class Kernel, bool IsMorris>
 struct ViscosityPass {
-    static constexpr bool kReadsWalls = true;
+    static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kMatrix = symmetric_size(D);
     static constexpr std::size_t kFluidFields = D + kMatrix, kCentreFields = kFluidFields;  // v, B
     static constexpr std::size_t kWallFields = 2 * D + 2;                                   // v, n, depth, no_slip
@@ -455,7 +455,7 @@ struct WallPressureOptions {
 
 template <int D, class Kernel>
 struct WallPressurePass {
-    static constexpr bool kReadsWalls = false;
+    static constexpr bool kReadsWalls = false, kIsOfWalls = true;
     static constexpr std::size_t kFluidFields = 2;  // p, rho
     static constexpr std::size_t kWallFields = 0, kCentreFields = 0;
 

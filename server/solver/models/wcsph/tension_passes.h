@@ -17,7 +17,7 @@ struct TensionOptions {
 // Stress S of the surface.
 template <int D, class Kernel>
 struct SurfaceStressPass {
-    static constexpr bool kReadsWalls = true;
+    static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kCentreFields = 0, kFluidFields = 0, kWallFields = 0;
 
     Kernel kernel;
@@ -47,7 +47,7 @@ struct SurfaceStressPass {
 // Force of the stress. A wall mirrors it: the surface goes on into the wall, at right angles.
 template <int D>
 struct ContinuumTensionPass {
-    static constexpr bool kReadsWalls = true;
+    static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kCentreFields = 0, kFluidFields = symmetric_size(D), kWallFields = 0;
 
     TensionKernel<D> kernel;
@@ -89,7 +89,7 @@ struct ContinuumTensionPass {
 // The thesis's form, with the model's kernel in place of its poly6.
 template <int D, class Kernel>
 struct ThesisTensionPass {
-    static constexpr bool kReadsWalls = true;
+    static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kCentreFields = 0, kFluidFields = 0, kWallFields = 0;
 
     Kernel kernel;

@@ -29,27 +29,33 @@ WallField::Change WallField::place(const Surroundings& surroundings, double t, b
     } else if (!walls_.move_to(t)) {
         return Change::none;
     }
-    WallParticles& w = walls_.particles();
+    is_in_order_ = false;
     if (std::exchange(version_, walls_.version()) == walls_.version()) {
         evaluate_gravity(surroundings, t, options.gravity);
         return Change::moved;
     }
+    const WallParticles& w = walls_.particles();
     state_.no_slip.resize(w.size());
     state_.p.resize(w.size());
     state_.delta.resize(w.size());
-    if (w.size() == 0) return Change::reordered;
-    order_.build(w.x, w.id, dimensions_, spacing_, surroundings.domain);
-    for (std::vector<Index>* field : {&w.id, &w.object, &w.sheet}) order_.permute(*field, scratch_id_);
-    for (VectorField* field : {&w.x, &w.v, &w.a, &w.n})
-        for (int k = 0; k < dimensions_; ++k) order_.permute((*field)[k], scratch_);
-    order_.permute(w.V, scratch_);
-    order_.permute(w.depth, scratch_);
     for (std::size_t k = 0; k < w.size(); ++k) {
         const Slip slip = surroundings.objects[w.object[k]].slip;
         state_.no_slip[k] = (slip == Slip::by_model ? options.slip : slip) == Slip::no_slip ? 1.0 : 0.0;
     }
     evaluate_gravity(surroundings, t, options.gravity);
-    return Change::reordered;
+    return Change::others;
+}
+
+bool WallField::put_in_order(const Domain& domain) {
+    if (std::exchange(is_in_order_, true) || is_empty()) return false;
+    WallParticles& w = walls_.particles();
+    order_.build(w.x, w.id, dimensions_, spacing_, domain);
+    for (std::vector<Index>* field : {&w.id, &w.object, &w.sheet}) order_.permute(*field, scratch_id_);
+    for (VectorField* field : {&w.x, &w.v, &w.a, &w.n, &state_.g})
+        for (int k = 0; k < dimensions_; ++k) order_.permute((*field)[k], scratch_);
+    for (std::vector<double>* field : {&w.V, &w.depth, &state_.no_slip, &state_.p, &state_.delta})
+        order_.permute(*field, scratch_);
+    return true;
 }
 
 // What a fluid particle at the wall would feel, seen from the wall.

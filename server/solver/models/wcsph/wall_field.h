@@ -20,9 +20,11 @@ class WallField {
   public:
     WallField(int dimensions, double spacing, double support);
 
-    enum class Change { none, moved, reordered };
+    enum class Change { none, moved, others };  // others: other wall particles than before
     // Puts the walls where they are at time t: `anew` when objects have changed, else only what moves.
     Change place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options);
+    // Sorts them as they are now, for the lists. Returns whether anything has changed since they were last sorted.
+    bool put_in_order(const Domain& domain);
 
     bool is_empty() const { return walls_.particles().size() == 0; }
     bool has_moving() const { return walls_.has_moving(); }
@@ -52,7 +54,8 @@ class WallField {
     Walls walls_;
     WallState state_;
     ClusterOrder order_;
-    std::uint64_t version_{~std::uint64_t{0}};  // of the walls that are in order
+    bool is_in_order_{false};
+    std::uint64_t version_{~std::uint64_t{0}};  // of the walls that the state belongs to
     std::vector<double> scratch_;
     std::vector<Index> scratch_id_;
 };

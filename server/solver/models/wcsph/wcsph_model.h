@@ -73,7 +73,7 @@ class Wcsph final : public Model {
                                               Index id) const override;
 
   private:
-    static constexpr double kSkin = 0.3;  // [spacings] by which lists reach beyond the support
+    static constexpr double kSkin = 0.4;  // [spacings] by which lists reach beyond the support
 
     template <class Work>
     void timed(WcsphStage stage, Work&& work) {
@@ -158,7 +158,7 @@ class Wcsph final : public Model {
     void put_body_force(Particles& particles, const Surroundings& surroundings);
     void put_in_order(Particles& particles, const Surroundings& surroundings);
     void sort_all(Particles& particles, const Surroundings& surroundings);
-    void list_neighbours(const Particles& particles);
+    void list_neighbours(const Particles& particles, const Surroundings& surroundings);
     // Before any sums: the lists must cover the places of now. Sorts where they do not.
     void find_neighbours(Particles& particles, const Surroundings& surroundings);
     LoadInput load_input(const Surroundings& surroundings) const {
@@ -191,7 +191,8 @@ class Wcsph final : public Model {
     ClusterOrder order_;
     WallField walls_;
     std::unique_ptr<PairNeighbours> neighbours_;
-    bool has_lists_{false};  // and in the order of now
+    bool has_lists_{false};     // in the order of now
+    bool is_first_list_{true};  // of these neighbours
     SightLines among_fluid_, fluid_to_wall_, wall_to_fluid_;
     std::uint64_t objects_version_{~std::uint64_t{0}};
     WcsphState state_;

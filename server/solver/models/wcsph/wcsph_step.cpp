@@ -55,13 +55,15 @@ void Wcsph::sort_all(Particles& particles, const Surroundings& surroundings) {
         separated_ += coincident;
         put_in_order(particles, surroundings);  // they have left their bins
     }
-    list_neighbours(particles);
+    list_neighbours(particles, surroundings);
 }
 
-void Wcsph::list_neighbours(const Particles& particles) {
+void Wcsph::list_neighbours(const Particles& particles, const Surroundings& surroundings) {
+    const bool is_first = std::exchange(is_first_list_, false);
     NeighbourInput in;
     in.dimensions = dimensions_;
     in.fluid = {&order_, &particles.x, state_.V.data(), particles.size()};
+    const bool has_new_walls = walls_.put_in_order(surroundings.domain) || is_first;
     in.walls = walls_.points();
     in.reach = {support_, kSkin * spacing_, period_, nullptr};
     if (const Visibility* panels = walls_.thin_walls()) {
@@ -74,6 +76,7 @@ void Wcsph::list_neighbours(const Particles& particles) {
         in.fluid_to_wall = &fluid_to_wall_;
         in.wall_to_fluid = &wall_to_fluid_;
     }
+    in.has_new_walls = has_new_walls;
     neighbours_->find(in);
     has_lists_ = true;
 }
@@ -87,7 +90,7 @@ void Wcsph::find_neighbours(Particles& particles, const Surroundings& surroundin
 void Wcsph::place_walls(const Surroundings& surroundings, double t, bool anew) {
     const WallField::Change change = walls_.place(surroundings, t, anew, {p_.gravity, p_.wall_slip});
     using enum WallField::Change;
-    if (change == reordered) has_lists_ = false;
+    if (change == others) has_lists_ = false;
     if (change == moved && has_lists_)
         has_lists_ = neighbours_->move_walls(walls_.particles().x, walls_.particles().V.data());
     if (!anew) return;
@@ -102,6 +105,7 @@ void Wcsph::make_sums() {
         p_.precision == Precision::double_precision || (p_.precision == Precision::automatic && is_extreme);
     neighbours_ = make_pair_neighbours(is_double ? Arithmetic::double_precision : Arithmetic::single_precision);
     has_lists_ = false;
+    is_first_list_ = true;
     sums_ = make_wcsph_sums({dimensions_, p_.kernel, support_}, *neighbours_);
     set_flat_surface();
 }

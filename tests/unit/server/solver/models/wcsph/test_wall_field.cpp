@@ -45,6 +45,7 @@ TEST_CASE("WallField.FluidInSolidsThatTouchIsPutBackIntoTheRoom") {
     const double support = 3.0 * dx;
     WallField walls(dimensions, dx, support);
     walls.place(scene.surroundings(), 0.0, true, {});
+    walls.put_in_order(scene.domain);
     const auto neighbours = find_neighbours(scene, walls, support);
 
     CHECK(walls.hold(scene.particles, *neighbours, 1e-3) > 0);

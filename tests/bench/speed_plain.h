@@ -1,0 +1,114 @@
+// The plain weakly compressible fluid whose run time is measured: continuity, pressure, artificial viscosity and
+// density diffusion, fused into one loop, in a periodic cube (square) that a vortex stirs.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "server/solver/forces/artificial_viscosity.h"
+#include "server/solver/forces/continuity.h"
+#include "server/solver/forces/density_diffusion.h"
+#include "server/solver/forces/pressure_gradient.h"
+#include "server/solver/objects.h"
+#include "server/solver/pair.h"
+#include "server/solver/particles.h"
+#include "server/solver/smoothing_kernels.h"
+
+namespace headrace::bench {
+
+// In storage order. delta = rho/rho0 - 1.
+struct PlainFluid {
+    int dimensions{3};
+    double spacing{};      // [m]
+    double support{};      // R [m]
+    double sound_speed{};  // [m/s]
+    double dt{};           // [s]
+    solver::Domain domain;
+    std::vector<solver::Index> id;
+    solver::VectorField x, v, v_half, a;                   // v: extrapolated to the time of x
+    std::vector<double> V, delta, delta_half, delta_rate;  // [m^3] (2D: m^2), [1], [1], [1/s]
+    std::vector<double> scratch;
+    std::vector<solver::Index> scratch_id;
+
+    std::size_t size() const { return id.size(); }
+};
+
+// A lattice of edge^D points, jittered, in Taylor and Green's vortex (3D: Arnold, Beltrami and Childress's) at a Mach
+// number of 0.1. Its mean pressure keeps it from tearing.
+PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp);
+
+// The rates are known for the first time: starts v_half and delta_half.
+void start_plain_fluid(PlainFluid& fluid);
+
+// Kick and drift: v_half and delta_half to the middle of the step, x to its end, v and delta extrapolated there.
+void advance_plain_fluid(PlainFluid& fluid);
+
+// Brings x back into the period.
+void wrap_plain_fluid(PlainFluid& fluid);
+
+// Puts all but the rates into the order that Order (ClusterOrder, CellGrid) found.
+template <class Order>
+void permute_plain_fluid(PlainFluid& fluid, const Order& order) {
+    order.permute(fluid.id, fluid.scratch_id);
+    for (solver::VectorField* field : {&fluid.x, &fluid.v, &fluid.v_half})
+        for (int k = 0; k < fluid.dimensions; ++k) order.permute((*field)[k], fluid.scratch);
+    for (std::vector<double>* field : {&fluid.V, &fluid.delta, &fluid.delta_half}) order.permute(*field, fluid.scratch);
+}
+
+// Its terms as a pass of the pair engine (pairs/pair_sums-inl.h).
+template <int D>
+struct PlainPass {
+    static constexpr bool kReadsWalls = false, kIsOfWalls = false;
+    static constexpr std::size_t kFluidFields = D + 1, kCentreFields = D + 1, kWallFields = 0;  // v, delta
+    static constexpr double kAlpha = 0.02;  // of the artificial viscosity
+
+    explicit PlainPass(PlainFluid& of) : kernel(of.support), support_over_c(of.support / of.sound_speed), fluid(of) {}
+
+    solver::WendlandC2<D> kernel;
+    double support_over_c;  // [s]
+    PlainFluid& fluid;
+
+    template <class T>
+    struct Sums {
+        std::array<T, D> push{};
+        T divergence{}, diffusion{};
+    };
+
+    std::array<const double*, kFluidFields> fluid_fields() const {
+        std::array<const double*, kFluidFields> fields;
+        for (int k = 0; k < D; ++k) fields[k] = fluid.v[k].data();
+        fields[D] = fluid.delta.data();
+        return fields;
+    }
+    std::array<const double*, kCentreFields> centre_fields() const { return fluid_fields(); }
+
+    template <bool IsWall, class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void pair(const Self& self, const solver::Pair<D, T>& pair, const Neighbour& neighbour,
+                                     Sums<T>& sums) const {
+        const T F = kernel.F(pair.r);
+        std::array<T, D> v_ij;
+        for (int k = 0; k < D; ++k) v_ij[k] = self(k) - neighbour(k);
+        sums.divergence += solver::velocity_divergence<D, T>(pair.V_j, F, pair.x_ij, v_ij);
+        sums.diffusion += solver::plain_diffusion<D, T>(pair, F, neighbour(D) - self(D), T(0.0));
+        // With the linear state equation p_i + p_j = rho0 c0^2 (delta_i + delta_j). Artificial viscosity adds to it:
+        // one factor of x_ij for both.
+        solver::Pair<D, T> unit = pair;
+        unit.V_j = T(1.0);
+        const T approach = solver::approach_factor<D, T>(unit, T(1.0), solver::dot<D, T>(v_ij, pair.x_ij));
+        const T weight = self(D) + neighbour(D) - kAlpha * 0.5 * support_over_c * approach;
+        solver::PressureSums<D, T> pressure;
+        pressure.pB_grad = sums.push;
+        solver::accumulate_difference<D, T>(pair.x_ij, pair.V_j * F * weight, pressure);
+        sums.push = pressure.pB_grad;
+    }
+
+    void store(solver::Index i, const Sums<double>& sums) const {
+        const double c = fluid.sound_speed, rho = 1.0 + fluid.delta[i];  // over rho0
+        for (int k = 0; k < D; ++k) fluid.a[k][i] = -c * c / rho * sums.push[k];
+        fluid.delta_rate[i] =
+            solver::kUsualDiffusion * 0.5 * fluid.support * c * sums.diffusion - rho * sums.divergence;
+    }
+};
+
+}  // namespace headrace::bench

@@ -1,0 +1,38 @@
+#include "tests/bench/speed_sums.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/bench/speed_sums.cpp"
+#include "hwy/foreach_target.h"
+// After it, since it is compiled for each target.
+#include "tests/bench/speed_sums-inl.h"
+
+#if HWY_ONCE
+namespace headrace::bench {
+
+HWY_EXPORT(make_sums);
+HWY_EXPORT(run_fma);
+
+std::string_view pair_strategy_name(PairStrategy strategy) {
+    switch (strategy) {
+        case PairStrategy::clusters:
+            return "clusters";
+        case PairStrategy::buffer:
+            return "buffer";
+        case PairStrategy::broadcast:
+            break;
+    }
+    return "broadcast";
+}
+
+std::unique_ptr<PlainSums> make_plain_sums(PairStrategy strategy, int dimensions) {
+    return std::unique_ptr<PlainSums>(HWY_DYNAMIC_DISPATCH(make_sums)(strategy, dimensions));
+}
+
+double measure_fma_gflops() {
+    double best = 0.0;
+    for (int window = 0; window < 5; ++window) best = std::max(best, HWY_DYNAMIC_DISPATCH(run_fma)());
+    return best;
+}
+
+}  // namespace headrace::bench
+#endif

@@ -1,0 +1,153 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "server/solver/pairs/instruction_sets.h"
+#include "tests/bench/speed_report.h"
+#include "tests/bench/speed_sums.h"
+
+using namespace headrace;
+using bench::PairStrategy;
+using bench::PlainFluid;
+
+namespace {
+
+constexpr PairStrategy kStrategies[] = {PairStrategy::clusters, PairStrategy::buffer, PairStrategy::broadcast};
+
+// What single precision may be off by.
+struct Tolerance {
+    double a{}, delta_rate{};  // [m/s^2], [1/s]
+};
+
+// Writes a and delta_rate, from all pairs in double precision.
+//
+// A term V F w x has some 20 roundings, n of them are added, and places are rounded at 4 R at most, which shifts a term
+// by 6 eps of its largest value V |F(0)| w R: together (n + 26) eps of n such terms. For the rate of delta the same
+// with v_ij . x_ij, and with deviations, which are rounded before their difference is taken.
+template <int D>
+Tolerance judge(PlainFluid& fluid) {
+    using Pass = bench::PlainPass<D>;
+    const Pass pass(fluid);
+    const auto fields = pass.centre_fields();
+    double most = 0.0, weight = 0.0, v = 0.0, V = 0.0, delta = 0.0;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        typename Pass::template Sums<double> sums;
+        solver::FieldsOf<double, D + 1> self, neighbour;
+        for (std::size_t f = 0; f <= D; ++f) self.field[f] = fields[f][i];
+        double neighbours = 0.0;
+        for (std::size_t j = 0; j < fluid.size(); ++j) {
+            solver::Pair<D, double> pair;
+            for (int k = 0; k < D; ++k)
+                pair.x_ij[k] = std::remainder(fluid.x[k][i] - fluid.x[k][j], fluid.domain.max[k]);
+            pair.r2 = solver::dot<D, double>(pair.x_ij, pair.x_ij);
+            pair.r = std::sqrt(pair.r2);
+            pair.V_j = fluid.V[j];
+            for (std::size_t f = 0; f <= D; ++f) neighbour.field[f] = fields[f][j];
+            pass.template pair<false>(self, pair, neighbour, sums);
+            if (j == i || pair.r >= fluid.support) continue;
+            double v2 = 0.0;
+            for (std::size_t k = 0; k < D; ++k) v2 += std::pow(self(k) - neighbour(k), 2);
+            const double pi_ij = Pass::kAlpha * 0.5 * fluid.support / fluid.sound_speed * std::sqrt(v2) / pair.r;
+            weight = std::max(weight, std::abs(self(D) + neighbour(D)) + pi_ij);
+            v = std::max(v, std::sqrt(v2));
+            ++neighbours;
+        }
+        most = std::max(most, neighbours);
+        V = std::max(V, fluid.V[i]);
+        delta = std::max(delta, std::abs(fluid.delta[i]));
+        pass.store(static_cast<solver::Index>(i), sums);
+    }
+    const double eps = std::numeric_limits<float>::epsilon(), c = fluid.sound_speed;
+    const double terms = (most + 26.0) * eps * most * V * std::abs(pass.kernel.F(0.0)) * fluid.support;
+    return {terms * weight * c * c, terms * ((1.0 + delta) * v + 2.0 * solver::kUsualDiffusion * c * delta)};
+}
+
+struct Difference {
+    double a{}, delta_rate{};
+};
+
+template <int D>
+Difference find_difference(const PlainFluid& one, const PlainFluid& exact) {
+    Difference worst;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        REQUIRE(one.id[i] == exact.id[i]);
+        for (int k = 0; k < D; ++k) worst.a = std::max(worst.a, std::abs(one.a[k][i] - exact.a[k][i]));
+        worst.delta_rate = std::max(worst.delta_rate, std::abs(one.delta_rate[i] - exact.delta_rate[i]));
+    }
+    return worst;
+}
+
+template <int D>
+void check_strategies(int edge, double support_over_dp) {
+    for (const PairStrategy strategy : kStrategies) {
+        CAPTURE(D, support_over_dp, bench::pair_strategy_name(strategy), solver::instruction_set());
+        PlainFluid fluid = bench::make_plain_fluid(D, edge, support_over_dp);
+        const auto sums = bench::make_plain_sums(strategy, D);
+        bench::StageSeconds seconds;
+        sums->compute(fluid, seconds);
+        bench::start_plain_fluid(fluid);
+        // Some steps: deviations and lists that are not new any more.
+        for (int step = 0; step < 3; ++step) {
+            bench::advance_plain_fluid(fluid);
+            sums->compute(fluid, seconds);
+        }
+        PlainFluid exact = fluid;
+        const Tolerance tolerance = judge<D>(exact);
+        // Small enough to tell: without one pair of average distance the sums would be off by far more.
+        const bench::PlainPass<D> pass(exact);
+        const double one_pair = exact.V[0] * std::abs(pass.kernel.F(0.6 * exact.support)) * 0.6 * exact.support;
+        const double c = exact.sound_speed;
+        REQUIRE(tolerance.a < c * c * exact.delta[0] * one_pair);
+        const Difference difference = find_difference<D>(fluid, exact);
+        CHECK(difference.a <= tolerance.a);
+        CHECK(difference.delta_rate <= tolerance.delta_rate);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("SpeedSums.StrategiesAgreeWithAllPairs") {
+    check_strategies<3>(12, 2.4);
+    check_strategies<3>(13, 4.0);
+    check_strategies<2>(20, 3.0);
+    check_strategies<2>(23, 4.0);
+}
+
+TEST_CASE("SpeedSums.InstructionSetsAgreeWithAllPairs") {
+    for (const std::string& name : solver::instruction_sets()) {
+        const solver::OnlyInstructionSet only(name);
+        check_strategies<3>(12, 3.0);
+    }
+}
+
+TEST_CASE("SpeedSums.ClustersReuseTheirLists") {
+    PlainFluid fluid = bench::make_plain_fluid(3, 16, 3.0);
+    const auto sums = bench::make_plain_sums(PairStrategy::clusters, 3);
+    bench::StageSeconds seconds;
+    sums->compute(fluid, seconds);
+    sums->compute(fluid, seconds);  // nothing has moved
+    CHECK(sums->sorts() == 1);
+}
+
+TEST_CASE("SpeedReport.TableComesBackFromItsFile") {
+    bench::SpeedRow row{"plain_3d", "plain", "clusters", 3, 1000, 2.4, 57.9, 2,  "AVX2",
+                        100,        11.5,    1,          2, 3,    4,   180,  240};
+    std::vector<bench::SpeedRow> rows;
+    bench::put_row(rows, row, false);
+    row.threads = 1;
+    bench::put_row(rows, row, false);
+    row.Mpsps_per_core = 9.0;
+    bench::put_row(rows, row, true);  // slower: stays out
+    const auto path = std::filesystem::temp_directory_path() / ("headrace_speed_" + std::to_string(getpid()) + ".csv");
+    std::ofstream(path) << bench::speed_csv(rows);
+    const std::vector<bench::SpeedRow> read = bench::read_speed_csv(path);
+    std::filesystem::remove(path);
+    REQUIRE(read.size() == 2);
+    CHECK(read[1].Mpsps_per_core == 11.5);
+    CHECK(bench::speed_csv(read) == bench::speed_csv(rows));
+}

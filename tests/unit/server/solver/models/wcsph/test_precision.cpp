@@ -1,0 +1,111 @@
+// What single precision in the pair sums does to the model, and what it must not do.
+#include <catch2/catch.hpp>
+#include <iostream>
+
+#include "scenes.h"
+
+using namespace headrace::solver;
+using namespace headrace::solver::testing;
+
+namespace {
+
+// Water in a tank, stirred, with its corner at `origin`; after one step, by id.
+struct State {
+    VectorField a;
+    double largest{};  // acceleration [m/s^2]
+};
+
+State after_one_step(int dimensions, const std::string& precision, double origin) {
+    Scene scene = make_tank(dimensions, dimensions == 2 ? 40 : 20);
+    displace_randomly(scene.particles, 0.1 * scene.dx, 3);
+    set_random_state(scene.particles, 100.0, 5);
+    for (int k = 0; k < dimensions; ++k) {
+        for (double& x : scene.particles.x[k]) x += origin;
+    }
+    scene.domain.min = {-0.5 + origin, -0.5 + origin, -0.5 + origin};
+    scene.domain.max = {1.5 + origin, 2.5 + origin, 1.5 + origin};
+    auto& box = std::get<Box>(scene.objects[0].shape);
+    for (double& c : box.center) c += origin;
+    scene.parameters["precision"] = precision;
+    REQUIRE_FALSE(scene.start().fault);
+    REQUIRE_FALSE(scene.step().fault);
+    State state;
+    for (int k = 0; k < dimensions; ++k) {
+        state.a[k].resize(scene.particles.size());
+        for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+            state.a[k][scene.particles.id[i]] = scene.particles.a[k][i];
+            state.largest = std::max(state.largest, std::abs(scene.particles.a[k][i]));
+        }
+    }
+    return state;
+}
+
+struct Difference {
+    double rms{}, largest{};  // over the largest acceleration
+};
+Difference compare(const State& one, const State& other, int dimensions) {
+    Difference difference;
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (int k = 0; k < dimensions; ++k) {
+        for (std::size_t i = 0; i < one.a[k].size(); ++i, ++count) {
+            const double d = std::abs(one.a[k][i] - other.a[k][i]) / other.largest;
+            sum += d * d;
+            difference.largest = std::max(difference.largest, d);
+        }
+    }
+    difference.rms = std::sqrt(sum / static_cast<double>(count));
+    return difference;
+}
+
+}  // namespace
+
+TEST_CASE("WcsphPrecision.SinglePrecisionIsAsGoodAsItsNumbers") {
+    // Sums of some hundred terms, each rounded to 6e-8 of itself at random, and places to 4e-8 of twelve spacings.
+    const int dimensions = GENERATE(2, 3);
+    const Difference d =
+        compare(after_one_step(dimensions, "single", 0.0), after_one_step(dimensions, "double", 0.0), dimensions);
+    INFO(dimensions << "D: rms " << d.rms << ", largest " << d.largest);
+    CHECK(d.rms < 1e-6);
+    CHECK(d.largest < 1e-5);
+    CHECK(d.largest > 0.0);  // it was single
+}
+
+TEST_CASE("WcsphPrecision.FarFromTheOriginIsAsGoodAsNearIt") {
+    // 10^4 spacings away, single precision of the places themselves would leave an error of 6e-4 spacings.
+    const int dimensions = GENERATE(2, 3);
+    const double away = 1e4 * (dimensions == 2 ? 1.0 / 40 : 1.0 / 20);
+    const Difference d =
+        compare(after_one_step(dimensions, "single", away), after_one_step(dimensions, "single", 0.0), dimensions);
+    INFO(dimensions << "D: rms " << d.rms << ", largest " << d.largest);
+    CHECK(d.rms < 1e-6);
+}
+
+TEST_CASE("WcsphPrecision.SinglePrecisionHasTheSameBitsForAnyThreadCount") {
+    const auto hash_with = [](int threads) {
+        std::uint64_t hash = 0;
+        with_threads(threads, [&] {
+            Scene scene = make_tank(3, 20);  // 4000 particles: many blocks of the lists
+            set_random_state(scene.particles, 100.0, 5);
+            scene.parameters["precision"] = std::string("single");
+            REQUIRE_FALSE(scene.start().fault);
+            for (int k = 0; k < 12; ++k) REQUIRE_FALSE(scene.step().fault);
+            hash = compute_state_hash(scene.particles);
+        });
+        return hash;
+    };
+    const std::uint64_t one = hash_with(1);
+    for (const int threads : {2, 3, 4}) CHECK(hash_with(threads) == one);
+}
+
+TEST_CASE("WcsphPrecision.TinySpacingsAreSummedInDouble") {
+    Scene scene;
+    scene.model = make_model("wcsph", 2, 1e-7, {});
+    scene.dx = 1e-7;
+    scene.particles = make_particles(2, {{0, 0, 0}});
+    scene.parameters = {{"sound_speed", 1.0}};
+    scene.model = make_model("wcsph", 2, scene.dx, scene.parameters);
+    REQUIRE_FALSE(scene.model->initialise(scene.particles, scene.surroundings()).fault);
+    const auto plan = scene.model->plan(scene.surroundings());
+    CHECK(plan.front().reason.find("double precision") != std::string::npos);
+}

@@ -1,0 +1,170 @@
+// No pair is ever missed, however the points move while the lists are reused.
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+#include "points.h"
+
+using namespace headrace::solver;
+using namespace headrace::solver::testing;
+
+namespace {
+
+constexpr double kSupport = 3.0, kSkin = 0.4;
+
+NeighbourInput input_of(const Points& fluid, const Points* walls = nullptr) {
+    NeighbourInput in;
+    in.dimensions = fluid.dimensions;
+    in.fluid = fluid.ordered();
+    if (walls != nullptr) in.walls = walls->ordered();
+    in.reach = {kSupport, kSkin, fluid.period(), nullptr};
+    return in;
+}
+
+// Pairs of points (centre, neighbour) that the list leads to, with how often.
+template <class S>
+std::map<std::pair<std::size_t, std::size_t>, int> listed_pairs(const PairList<S>& list,
+                                                                const ClusterPoints<S>& centres,
+                                                                const ClusterPoints<S>& neighbours) {
+    std::map<std::pair<std::size_t, std::size_t>, int> pairs;
+    for (std::size_t c = 0; c < centres.clusters(); ++c) {
+        const PairBlock<S>& block = list.blocks()[c / kMotionBlock];
+        for (Index g = block.first_group[c % kMotionBlock]; g < block.first_group[c % kMotionBlock + 1]; ++g) {
+            for (Index e = block.groups[g].begin; e < block.groups[g].end; ++e) {
+                for (std::size_t k = 0; k < 16; ++k) {
+                    const std::size_t i = 4 * c + k / 4, j = std::size_t{4} * block.entries[e] + k % 4;
+                    if (i >= centres.size() || j >= neighbours.size()) continue;
+                    // As the loop sees it: relative places and the group's offset.
+                    double r2 = 0.0;
+                    for (int axis = 0; axis < centres.dimensions(); ++axis) {
+                        const double d = centres.record(c)[4 * axis + k / 4] + block.groups[g].offset[axis] -
+                                         neighbours.record(block.entries[e])[4 * axis + k % 4];
+                        r2 += d * d;
+                    }
+                    if (r2 < kSupport * kSupport) ++pairs[{i, j}];
+                }
+            }
+        }
+    }
+    return pairs;
+}
+
+// Every pair within the support once; pairs at its very edge may go either way.
+template <class S>
+void check_complete(const PairNeighboursOf<S>& neighbours, const Points& points) {
+    constexpr double kEdge = 1e-5;  // rounding of relative places, a hundred spacings at most
+    const auto pairs = listed_pairs(neighbours.among_fluid(), neighbours.fluid(), neighbours.fluid());
+    std::size_t missing = 0, wrong = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t j = 0; j < points.size(); ++j) {
+            const double r = points.distance(i, j);
+            const auto found = pairs.find({i, j});
+            const int count = found == pairs.end() ? 0 : found->second;
+            missing += r < kSupport - kEdge && count != 1;
+            wrong += r > kSupport + kEdge && count != 0;
+        }
+    }
+    CHECK(missing == 0);
+    CHECK(wrong == 0);
+}
+
+Points make_body(const std::string& kind, int dimensions) {
+    Points points;
+    points.dimensions = dimensions;
+    if (kind == "spray") {
+        points.fill(300, {0, 0, 0}, {9, 9, 9}, 11);
+        points.fill(30, {-2e4, -2e4, -2e4}, {2e4, 2e4, 2e4}, 12);
+    } else {
+        points.fill(500, {0, 0, 0}, {11, 10, 9.5}, 13);
+        if (kind == "periods") points.domain = {{0, 0, 0}, {11, 10, 9.5}, {true, false, true}};
+    }
+    points.sort();
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("PairList.HasEveryPairWithinTheSupportOnce") {
+    const int dimensions = GENERATE(2, 3);
+    const std::string kind = GENERATE("body", "periods", "spray");
+    const Points points = make_body(kind, dimensions);
+    PairNeighboursOf<double> neighbours;
+    neighbours.find(input_of(points));
+    check_complete(neighbours, points);
+}
+
+TEST_CASE("PairList.MissesNoPairAsLongAsItSaysSo") {
+    // A carried, turning and shaken body: lists are kept until covers() gives them up.
+    const int dimensions = GENERATE(2, 3);
+    const std::string kind = GENERATE("body", "periods");
+    Points points = make_body(kind, dimensions);
+    PairNeighboursOf<float> neighbours;
+    neighbours.find(input_of(points));
+    std::mt19937_64 random(17);
+    std::uniform_real_distribution<double> shake(-0.02, 0.02);
+    int kept = 0;
+    for (int step = 0; step < 100; ++step) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double x = points.x[0][i], y = points.x[1][i];
+            points.x[0][i] += 0.3 - 0.004 * (y - 5.0) + shake(random);
+            points.x[1][i] += 0.004 * (x - 5.0 - 0.3 * step) + shake(random);
+        }
+        if (!neighbours.move_fluid(points.x, points.V.data())) break;
+        ++kept;
+        check_complete(neighbours, points);
+    }
+    CHECK(kept >= 2);   // a body carried 0.3 a step alone would have worn out a skin of 0.4 at once
+    CHECK(kept < 100);  // and shaking wears it out in the end
+}
+
+TEST_CASE("PairList.TellsWhenOneFastPointCouldCloseIn") {
+    Points points;
+    points.dimensions = 2;
+    points.fill(200, {0, 0, 0}, {10, 10, 0}, 19);
+    points.add({16.0, 5.0, 0.0});  // out of reach
+    points.sort();
+    PairNeighboursOf<float> neighbours;
+    neighbours.find(input_of(points));
+    const auto fast =
+        static_cast<std::size_t>(std::find(points.id.begin(), points.id.end(), Index{200}) - points.id.begin());
+    for (int step = 0; step < 100; ++step) {
+        points.x[0][fast] -= 0.1;
+        if (!neighbours.move_fluid(points.x, points.V.data())) break;
+        check_complete(neighbours, points);
+    }
+    CHECK(points.x[0][fast] > 10.0);
+    CHECK(points.x[0][fast] < 16.0);
+}
+
+TEST_CASE("PairList.WallsSeeTheFluidThatSeesThem") {
+    const int dimensions = GENERATE(2, 3);
+    const std::string kind = GENERATE("body", "periods");
+    const Points fluid = make_body(kind, dimensions);
+    Points walls;
+    walls.dimensions = dimensions;
+    walls.domain = fluid.domain;
+    walls.fill(300, {0, 7, 0}, {11, 10, 9.5}, 23);
+    walls.sort();
+    PairNeighboursOf<float> neighbours;
+    neighbours.find(input_of(fluid, &walls));
+    const auto there = listed_pairs(neighbours.fluid_to_wall(), neighbours.fluid(), neighbours.walls());
+    const auto back = listed_pairs(neighbours.wall_to_fluid(), neighbours.walls(), neighbours.fluid());
+    CHECK(there.size() == back.size());
+    std::size_t different = 0;
+    for (const auto& [pair, count] : there) different += back.find({pair.second, pair.first})->second != count;
+    CHECK(different == 0);
+    // And all of them.
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        for (std::size_t w = 0; w < walls.size(); ++w) {
+            double r2 = 0.0;
+            for (int k = 0; k < dimensions; ++k) {
+                double d = fluid.x[k][i] - walls.x[k][w];
+                if (fluid.domain.periodic[k]) d -= fluid.period()[k] * std::round(d / fluid.period()[k]);
+                r2 += d * d;
+            }
+            expected += r2 < kSupport * kSupport;
+        }
+    }
+    CHECK(there.size() == expected);
+}
