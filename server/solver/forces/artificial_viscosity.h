@@ -24,8 +24,7 @@ HEADRACE_ALWAYS_INLINE T approach_factor(const Pair<D, T>& pair, const T& F, con
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T approach_factor(const Pair<D, T>& pair, const T& F, const VectorOf<D, T>& v_ij,
                                          const Symmetric<D, T>& mean_strain) {
-    return approach_factor<D, T>(pair, F,
-                                 dot<D, T>(v_ij, pair.x_ij) - dot<D, T>(pair.x_ij, mean_strain * pair.x_ij));
+    return approach_factor<D, T>(pair, F, dot<D, T>(v_ij, pair.x_ij) - dot<D, T>(pair.x_ij, mean_strain * pair.x_ij));
 }
 
 }  // namespace headrace::solver
