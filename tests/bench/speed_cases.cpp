@@ -249,11 +249,13 @@ proto::Status time_plain(const PlainCase& one, const SpeedPlan& plan, const Spee
     }
     const SpeedRow row = describe(one, developed);
     const std::vector<std::string> sets = solver::instruction_sets();
-    if (auto error = hold_contests(developed, bytes, row, sets.front(), one.strategies, plan, sink); !error)
-        return error;
+    if (auto status = hold_contests(developed, bytes, row, sets.front(), one.strategies, plan, sink); !status)
+        return status;
+    SpeedPlan alone = plan;
+    alone.threads.resize(1);
     for (std::size_t k = 1; k < sets.size() && one.all_instruction_sets; ++k) {
-        if (auto error = hold_contests(developed, bytes, row, sets[k], {PairStrategy::clusters}, plan, sink); !error)
-            return error;
+        if (auto status = hold_contests(developed, bytes, row, sets[k], {PairStrategy::clusters}, alone, sink); !status)
+            return status;
     }
     return proto::Done{};
 }

@@ -26,7 +26,7 @@ struct PlainCase {
     double support_over_dp{3.0};
     std::size_t particles{};  // about so many: a whole cube or square
     std::vector<PairStrategy> strategies;
-    bool all_instruction_sets{false};  // of the clusters
+    bool all_instruction_sets{false};  // of the clusters, with the first of the thread counts
 };
 
 // The strategies, thread counts and instruction sets take turns; of each the fastest window counts.

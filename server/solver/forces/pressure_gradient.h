@@ -41,17 +41,18 @@ HEADRACE_ALWAYS_INLINE void accumulate_difference(const VectorOf<D, T>& grad, co
 
 // sign: +1, or -1 where tension is controlled.
 template <int D>
-std::array<double, D> adjoint_acceleration(const PressureSums<D, double>& sums, const Symmetric<D>& pB_i, double sign,
-                                           double rho_i) {
+HEADRACE_ALWAYS_INLINE std::array<double, D> adjoint_acceleration(const PressureSums<D, double>& sums,
+                                                                  const Symmetric<D>& pB_i, double sign, double rho_i) {
     const std::array<double, D> own = pB_i * sums.grad_1;
     std::array<double, D> a;
-    for (int k = 0; k < D; ++k) a[k] = -(sign * own[k] + sums.pB_grad[k]) / rho_i;
+    const double scale = -1.0 / rho_i;
+    for (int k = 0; k < D; ++k) a[k] = scale * (sign * own[k] + sums.pB_grad[k]);
     return a;
 }
 
 template <int D>
-std::array<double, D> difference_acceleration(const PressureSums<D, double>& sums, double p_i, const Symmetric<D>& B_i,
-                                              double rho_i) {
+HEADRACE_ALWAYS_INLINE std::array<double, D> difference_acceleration(const PressureSums<D, double>& sums, double p_i,
+                                                                     const Symmetric<D>& B_i, double rho_i) {
     std::array<double, D> difference;
     for (int k = 0; k < D; ++k) difference[k] = sums.pB_grad[k] - p_i * sums.grad_1[k];
     std::array<double, D> a = B_i * difference;

@@ -77,6 +77,24 @@ HWY_INLINE bool is_any_below(const PairLanes<S>& a, const PairLanes<S>& b) {
 #endif
 }
 
+// The sum of each four lanes, in the first of them.
+template <class S>
+HWY_INLINE void sum_fours(PairLanes<S>& a) {
+    constexpr std::size_t N = kPairLanes<S>;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    if constexpr (sizeof(S) == 4 && N > 4) {
+        const hn::CappedTag<S, N> d;
+        hn::Vec<decltype(d)> vector;
+        vector.raw = (decltype(vector.raw))a.v;
+        vector = hn::Add(vector, hn::Shuffle2301(vector));
+        vector = hn::Add(vector, hn::Shuffle1032(vector));
+        a.v = (typename PairLanes<S>::Vector)(vector.raw);
+        return;
+    }
+#endif
+    for (std::size_t k = 0; k < N; k += 4) a.v[k] = (a.v[k] + a.v[k + 1]) + (a.v[k + 2] + a.v[k + 3]);
+}
+
 template <class S>
 HWY_INLINE PairLanes<S> square_root(const PairLanes<S>& a) {
     PairLanes<S> root;

@@ -145,15 +145,14 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
                     add_pairs<true, D, Pass::kWallFields, S>(pass, self, x_i, part, walls.list->blocks()[b], c - first,
                                                              walls, sums);
             }
+            std::array<T, kSums> fours;
+            __builtin_memcpy(static_cast<void*>(&fours), &sums, sizeof fours);
+            for (T& four : fours) sum_fours<S>(four);
             alignas(64) S lanes[kSums][T::kCount];
-            __builtin_memcpy(lanes, &sums, sizeof lanes);
+            __builtin_memcpy(lanes, &fours, sizeof lanes);
             for (std::size_t l = 0; l < kAtOnce && part + l < points; ++l) {
                 std::array<double, kSums> total;
-                for (std::size_t s = 0; s < kSums; ++s) {
-                    const S* four = lanes[s] + 4 * l;
-                    total[s] = (static_cast<double>(four[0]) + static_cast<double>(four[1])) +
-                               (static_cast<double>(four[2]) + static_cast<double>(four[3]));
-                }
+                for (std::size_t s = 0; s < kSums; ++s) total[s] = static_cast<double>(lanes[s][4 * l]);
                 PointSums point;
                 __builtin_memcpy(static_cast<void*>(&point), total.data(), sizeof point);
                 pass.store(static_cast<Index>(begin + part + l), point);

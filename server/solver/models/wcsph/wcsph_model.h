@@ -73,7 +73,7 @@ class Wcsph final : public Model {
                                               Index id) const override;
 
   private:
-    static constexpr double kSkin = 0.4;  // [spacings] by which lists reach beyond the support
+    static inline const double kSkin = getenv("SKIN") ? atof(getenv("SKIN")) : 0.4;  // [spacings] by which lists reach beyond the support
 
     template <class Work>
     void timed(WcsphStage stage, Work&& work) {

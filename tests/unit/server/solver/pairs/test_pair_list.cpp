@@ -74,6 +74,11 @@ Points make_body(const std::string& kind, int dimensions) {
     if (kind == "spray") {
         points.fill(300, {0, 0, 0}, {9, 9, 9}, 11);
         points.fill(30, {-2e4, -2e4, -2e4}, {2e4, 2e4, 2e4}, 12);
+    } else if (kind == "spray about a corner of periods") {
+        for (const double x : {0.0, 391.0})
+            for (const double y : {0.0, 391.0}) points.fill(60, {x, y, 0}, {x + 9, y + 9, 9}, 14);
+        points.fill(40, {0, 0, 0}, {400, 400, 9}, 15);
+        points.domain = {{0, 0, -1e9}, {400, 400, 1e9}, {true, true, false}};
     } else {
         points.fill(500, {0, 0, 0}, {11, 10, 9.5}, 13);
         if (kind == "periods") points.domain = {{0, 0, 0}, {11, 10, 9.5}, {true, false, true}};
@@ -86,7 +91,7 @@ Points make_body(const std::string& kind, int dimensions) {
 
 TEST_CASE("PairList.HasEveryPairWithinTheSupportOnce") {
     const int dimensions = GENERATE(2, 3);
-    const std::string kind = GENERATE("body", "periods", "spray");
+    const std::string kind = GENERATE("body", "periods", "spray", "spray about a corner of periods");
     const Points points = make_body(kind, dimensions);
     PairNeighboursOf<double> neighbours;
     neighbours.find(input_of(points));
