@@ -14,7 +14,7 @@ namespace headrace::solver {
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T velocity_divergence(const T& V_j, const T& F, const VectorOf<D, T>& corrected_x_ij,
                                              const VectorOf<D, T>& v_ij) {
-    return -V_j * F * dot<D, T>(v_ij, corrected_x_ij);
+    return -(V_j * F * dot<D, T>(v_ij, corrected_x_ij));
 }
 
 }  // namespace headrace::solver

@@ -21,14 +21,14 @@ inline constexpr double kUsualDiffusion = 0.1;  // xi, as the three sources use 
 // psi . grad W V_j for the first two; delta_H = 0 for Molteni & Colagrossi. x_ji . grad_i W = -F r^2.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T plain_diffusion(const Pair<D, T>& pair, const T& F, const T& delta_ji, const T& delta_H) {
-    return -2.0 * pair.V_j * F * (delta_ji - delta_H);
+    return -(pair.V_j * F * (2.0 * (delta_ji - delta_H)));
 }
 
 // The same for Antuono: sum_grad = <grad delta>_i + <grad delta>_j.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T antuono_diffusion(const Pair<D, T>& pair, const T& F, const T& delta_ji,
                                            const VectorOf<D, T>& sum_grad) {
-    return -pair.V_j * F * (2.0 * delta_ji + dot<D, T>(sum_grad, pair.x_ij));
+    return -(pair.V_j * F * (2.0 * delta_ji + dot<D, T>(sum_grad, pair.x_ij)));
 }
 
 }  // namespace headrace::solver

@@ -15,9 +15,9 @@ namespace headrace::solver {
 // V_j F x_ij (x) x_ij, the part of M that the pair gives, with the sign of -F > 0.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE void accumulate_moment(const Pair<D, T>& pair, const T& F, Symmetric<D, T>& M) {
-    const T weight = -pair.V_j * F;
+    const VectorOf<D, T> weighted = scaled<D, T>(pair.V_j * F, pair.x_ij);
     for (int r = 0; r < D; ++r) {
-        for (int c = r; c < D; ++c) M(r, c) += weight * pair.x_ij[r] * pair.x_ij[c];
+        for (int c = r; c < D; ++c) M(r, c) -= weighted[r] * pair.x_ij[c];
     }
 }
 

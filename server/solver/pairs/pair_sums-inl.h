@@ -80,12 +80,14 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<P
     using T = PairLanes<S>;
     constexpr std::size_t kRecord = 4 * (D + 1), kFields = 4 * Fields;
     const S* records = source.points->record(0);
+    const Index* entries = block.entries.data();
+    const bool is_hidden_in_part = !block.seen.empty();
     for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
         const PairGroup<S>& group = block.groups[g];
         std::array<T, D> x;
         for (int k = 0; k < D; ++k) x[k] = x_i[k] + T(static_cast<double>(group.offset[k]));
         for (Index e = group.begin; e < group.end; ++e) {
-            const std::size_t j = block.entries[e];
+            const std::size_t j = entries[e];
             const S* record = records + j * kRecord;
             const S* fields = source.fields + j * kFields;
             Pair<D, T> pair;
@@ -93,7 +95,7 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<P
             pair.r2 = dot<D, T>(pair.x_ij, pair.x_ij);
             pair.r = square_root<S>(pair.r2);
             pair.V_j = load_four<S>(record + 4 * D);
-            if (!block.seen.empty()) {
+            if (is_hidden_in_part) {
                 // Rare, beside thin panels: hidden neighbours have no volume.
                 alignas(64) S seen[T::kCount];
                 for (std::size_t l = 0; l < T::kCount; ++l)
