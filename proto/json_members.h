@@ -114,6 +114,10 @@ struct EnumNames<WallSlip> {
 };
 
 template <>
+struct EnumNames<LevelSurface> {
+    static constexpr std::array<std::string_view, 2> names{"highest", "lowest"};
+};
+template <>
 struct EnumNames<ProfileField> {
     static constexpr std::array<std::string_view, 5> names{"pressure", "density", "velocity_x", "velocity_y",
                                                            "velocity_z"};

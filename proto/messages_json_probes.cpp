@@ -41,6 +41,10 @@ void describe(Visitor& v, VelocityProbe& probe) {
 
 void describe(Visitor& v, LevelProbe& probe) {
     describe_line(v, probe.from, probe.to);
+    v.unless_default("surface", probe.surface,
+                     {.meaning = "which, where the line crosses several: highest counts splashes and breaking waves, "
+                                 "lowest is the top of the fluid that stands on the line's beginning"},
+                     LevelSurface::highest);
 }
 
 void describe(Visitor& v, ProfileProbe& probe) {

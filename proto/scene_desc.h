@@ -190,9 +190,11 @@ struct PressureProbe {  // [Pa] at a point, or the mean over a disc (2D: segment
 struct VelocityProbe {  // [m/s] vector at a point
     Vec3 point{};
 };
-struct LevelProbe {  // [m] distance from `from` to the highest fluid surface on the line towards `to`
+enum class LevelSurface { highest, lowest };
+struct LevelProbe {  // [m] distance from `from` to the fluid's `surface` on the line towards `to`
     Vec3 from{};
     Vec3 to{};
+    LevelSurface surface{LevelSurface::highest};
 };
 enum class ProfileField { pressure, density, velocity_x, velocity_y, velocity_z };
 struct ProfileProbe {  // `field` at `points` equidistant points from `from` to `to`, ends included

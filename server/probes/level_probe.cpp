@@ -2,9 +2,11 @@
 //
 // The surface is where the particles' concentration, sum of V_j W_j, is half of what it would be inside the fluid: on a
 // flat surface exactly one half of the kernel's weight is filled. What walls take of the support counts as missing on
-// both sides, so that a gauge may stand on a wall. Looked for from the far end: the highest surface counts. Drops and
-// films thinner than about one and a half spacings fill less than half and are not seen; a fluid that reaches past the
-// far end reads the line's whole length, and a dry line 0.
+// both sides, so that a gauge may stand on a wall. Drops and films thinner than about one and a half spacings fill less
+// than half and are not seen; a fluid that reaches past the far end reads the line's whole length, and a dry line 0.
+//
+// Where the line crosses several surfaces the highest counts, looked for from the far end, or the lowest, looked for
+// from the beginning: what flies above the fluid does not count then, and the level is 0 where the beginning is dry.
 #include <algorithm>
 #include <cmath>
 
@@ -20,11 +22,12 @@ namespace {
 class Level final : public Probe {
   public:
     explicit Level(const proto::LevelProbe& desc)
-        : from_(desc.from), to_(desc.to), length_(length(minus(desc.to, desc.from))) {}
+        : from_(desc.from), to_(desc.to), surface_(desc.surface), length_(length(minus(desc.to, desc.from))) {}
     std::vector<proto::ProbeColumn> columns() const override { return {{"level", "m", {}}}; }
     std::optional<Region> region(double support) const override { return Region{from_, to_, support}; }
     Failure sample(const RunView& run, std::span<const NearParticle> near, proto::ProbeRow& values) const override {
-        values[0] = find_level(run, Line(*this, near, run));
+        const Line line(*this, near, run);
+        values[0] = surface_ == proto::LevelSurface::highest ? find_highest(run, line) : find_lowest(run, line);
         return std::nullopt;
     }
 
@@ -71,9 +74,11 @@ class Level final : public Probe {
         return c >= 0.5 * line.open_fraction(x);
     }
 
-    double find_level(const RunView& run, const Line& line) const {
-        // Half a spacing: no fluid that is thick enough to be seen fits between two points.
-        const double step = 0.5 * run.spacing;
+    // Half a spacing: no fluid that is thick enough to be seen fits between two points.
+    static double step_along(const RunView& run) { return 0.5 * run.spacing; }
+
+    double find_highest(const RunView& run, const Line& line) const {
+        const double step = step_along(run);
         double dry = std::min(length_, line.top() + line.R());
         if (dry <= 0.0) return 0.0;
         if (is_filled(run, line, dry)) return dry;
@@ -82,6 +87,17 @@ class Level final : public Probe {
             if (is_filled(run, line, wet)) return refine(run, line, wet, dry);
         }
         return 0.0;
+    }
+
+    double find_lowest(const RunView& run, const Line& line) const {
+        // On the fluid's own lower edge the kernel is just half full.
+        double wet = std::min(length_, step_along(run));
+        if (!is_filled(run, line, wet)) return is_filled(run, line, 0.0) ? refine(run, line, 0.0, wet) : 0.0;
+        for (double next = wet; wet < length_; wet = next) {
+            next = std::min(length_, wet + step_along(run));
+            if (!is_filled(run, line, next)) return refine(run, line, wet, next);
+        }
+        return length_;
     }
 
     double refine(const RunView& run, const Line& line, double wet, double dry) const {
@@ -94,6 +110,7 @@ class Level final : public Probe {
     }
 
     Vec3 from_, to_;
+    proto::LevelSurface surface_;
     double length_;
 };
 

@@ -59,6 +59,10 @@ std::string gradient_advice(const RunLimits& limits) {
     return "where the fluid has a free surface, set free_surface to true and pressure_gradient to automatic; ";
 }
 
+std::string shifting_advice(const RunLimits& limits) {
+    return limits.shifts ? "" : "set shifting to true: without it particles pile up; ";
+}
+
 std::string stiffness_advice(const RunLimits& limits) {
     if (limits.sound_speed_by_rule)
         return "set reference_speed to the largest speed expected: the fluid was made for a tenth of c0 = " +
@@ -97,10 +101,10 @@ std::string remedy_for(FaultKind kind, const RunLimits& limits) {
             return advice.empty() ? "enlarge the domain, or keep the fluid in by an object of role container"
                                   : advice + "else enlarge the domain";
         case FaultKind::density:
-            return advice + gradient_advice(limits) + stiffness_advice(limits) +
+            return advice + gradient_advice(limits) + shifting_advice(limits) + stiffness_advice(limits) +
                    "; look for fluids that overlap or an object put into fluid";
         case FaultKind::speed:
-            return advice + stiffness_advice(limits);
+            return advice + shifting_advice(limits) + stiffness_advice(limits);
         case FaultKind::time_step:
             return advice + "the criterion \"" + std::string(limits.limit) + "\" leaves steps of " +
                    number(limits.next_step) +

@@ -46,6 +46,7 @@ struct RunLimits {
     double fixed_step{};             // [s]; 0: none
     bool sound_speed_by_rule{true};  // else the scene gave it
     bool is_confined{};              // the pressure force is the one for fluid without free surface
+    bool shifts{true};
 };
 
 // The first criterion violated, in the order above. Precondition: all x and v are finite.

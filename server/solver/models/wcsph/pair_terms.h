@@ -106,8 +106,9 @@ class PairTerms {
     }
 
     bool is_controlled(Index i) const {
-        return options_.is_adjoint && options_.pressure.controls_tension && view_.particles.p[i] < 0.0 &&
-               view_.state.min_eigenvalue[i] > options_.pressure.tension_eigenvalue;
+        return options_.is_adjoint && options_.pressure.controls_tension &&
+               controls_tension(view_.particles.p[i], view_.state.min_eigenvalue[i], view_.state.unevenness[i],
+                                options_.pressure.tension_limits);
     }
 
     const WcsphView& view_;

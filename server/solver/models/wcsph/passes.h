@@ -70,6 +70,7 @@ struct PassData {
 inline constexpr double kGradientEigenvalue = 0.3;  // from which a gradient is corrected
 
 struct GeometryOptions {
+    double spacing{};               // [m]
     double correction_threshold{};  // smallest eigenvalue that is corrected
     bool shifting{};
     bool reconstructs{};        // the strain rate is wanted
@@ -168,7 +169,7 @@ struct GeometryPass {
         const std::array<double, D> grad_delta = L * sums.grad_delta;
         state.min_eigenvalue[i] = eigenvalue;
         write_matrix<D>(state.B, i, B);
-        write_vector<D>(state.normal, i, normal);
+        state.unevenness[i] = options.spacing * std::sqrt(dot<D, double>(normal, normal));
         write_vector<D>(state.grad_delta, i, grad_delta);
         if constexpr (HasGradients) {
             const auto grad_v = velocity_gradient(sums, L, eigenvalue);
@@ -280,8 +281,8 @@ struct ContinuityPass {
 struct PressureOptions {
     double artificial_viscosity{};  // alpha h c0 rho0 [Pa s]
     bool controls_tension{};
-    double tension_eigenvalue{};  // tension is controlled where the smallest eigenvalue exceeds this
-    bool walls_suck{};            // may their pressure be negative?
+    TensionLimits tension_limits;
+    bool walls_suck{};  // may their pressure be negative?
 };
 
 template <int D, class Kernel, bool IsAdjoint, bool HasAlpha>
@@ -354,8 +355,9 @@ struct PressurePass {
         const double p = data.particles.p[i], rho = data.particles.rho[i];
         PressureSums<D, double> total = sums.fluid;
         const Symmetric<D> B = matrix_at<D>(data.state.B, i);
-        const bool is_controlled = IsAdjoint && options.controls_tension && p < 0.0 &&
-                                   data.state.min_eigenvalue[i] > options.tension_eigenvalue;
+        const bool is_controlled =
+            IsAdjoint && options.controls_tension &&
+            controls_tension(p, data.state.min_eigenvalue[i], data.state.unevenness[i], options.tension_limits);
         // Where walls do not suck, controlled tension would push the particle off the wall, the more the further it
         // goes: it ends at the fluid.
         if (!is_controlled || options.walls_suck) add_to<D, double>(total.grad_1, sums.walls.grad_1);

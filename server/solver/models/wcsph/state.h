@@ -18,9 +18,9 @@ struct WcsphState {
 
     // computed once per advective step, at its start; carried through its acoustic steps
     std::vector<double> min_eigenvalue;  // [1] of the moment matrix
+    std::vector<double> unevenness;      // [1] |sum V_j grad W| dp
     MatrixField B;                       // [1] gradient correction
     MatrixField strain;                  // [1/s] strain rate; 0 where it is not wanted
-    VectorField normal;                  // [1/m] sum V_j grad W: points into the fluid
     VectorField grad_delta;              // [1/m] corrected, for the diffusion of Antuono
     VectorField dx;                      // [m] shift
     VectorField dv;                      // [m/s] what the shift adds to v

@@ -14,9 +14,9 @@ void Wcsph::set_state_equation() {
 
 void Wcsph::resize_state(std::size_t count) {
     for (std::vector<double>* field :
-         {&state_.delta, &state_.min_eigenvalue, &state_.ddelta, &state_.V, &state_.delta_rate})
+         {&state_.delta, &state_.min_eigenvalue, &state_.unevenness, &state_.ddelta, &state_.V, &state_.delta_rate})
         field->assign(count, 0.0);
-    for (VectorField* field : {&state_.normal, &state_.grad_delta, &state_.dx, &state_.dv, &state_.a_slow})
+    for (VectorField* field : {&state_.grad_delta, &state_.dx, &state_.dv, &state_.a_slow})
         for (int k = 0; k < dimensions_; ++k) (*field)[k].assign(count, 0.0);
     for (MatrixField* field : {&state_.B, &state_.pB, &state_.strain})
         for (int k = 0; k < symmetric_size(dimensions_); ++k) (*field)[k].assign(count, 0.0);

@@ -34,11 +34,11 @@ void Wcsph::put_in_order(Particles& particles, const Surroundings& surroundings)
     order_.build(particles.x, particles.id, dimensions_, spacing_, surroundings.domain);
     order_.permute(particles.id, scratch_id_);
     const auto permute = [&](std::vector<double>& field) { order_.permute(field, scratch_); };
-    for (VectorField* field : {&particles.x, &particles.v, &particles.a, &state_.normal, &state_.grad_delta,
-                               &state_.a_slow, &state_.dx, &state_.dv})
+    for (VectorField* field :
+         {&particles.x, &particles.v, &particles.a, &state_.grad_delta, &state_.a_slow, &state_.dx, &state_.dv})
         for (int k = 0; k < dimensions_; ++k) permute((*field)[k]);
     for (std::vector<double>* field : {&particles.m, &particles.rho, &particles.p, &state_.delta, &state_.V,
-                                       &state_.min_eigenvalue, &state_.delta_rate, &state_.ddelta})
+                                       &state_.min_eigenvalue, &state_.unevenness, &state_.delta_rate, &state_.ddelta})
         permute(*field);
     for (MatrixField* field : {&state_.B, &state_.pB, &state_.strain})
         for (int k = 0; k < symmetric_size(dimensions_); ++k) permute((*field)[k]);
@@ -114,6 +114,7 @@ void Wcsph::make_sums() {
 
 GeometryOptions Wcsph::geometry_options(bool shifts) const {
     GeometryOptions options;
+    options.spacing = spacing_;
     options.correction_threshold = p_.pressure_gradient == PressureGradient::plain
                                        ? std::numeric_limits<double>::infinity()
                                    : is_adjoint() ? p_.correction_threshold
@@ -257,7 +258,6 @@ PressureOptions Wcsph::pressure_options() const {
     PressureOptions options;
     options.artificial_viscosity = artificial_viscosity();
     options.controls_tension = p_.tension_control && is_adjoint() && p_.free_surface;
-    options.tension_eigenvalue = 0.9;
     options.walls_suck = least_wall_pressure() < 0.0;
     return options;
 }
@@ -349,8 +349,8 @@ StepChoice Wcsph::limit_step(double dt_before) const {
 }
 
 RunLimits Wcsph::run_limits() const {
-    return {c0_,          p_.cfl * h() / c0_,    next_.dt,     next_.criterion, p_.cfl, WcsphParameters{}.cfl,
-            p_.time_step, p_.sound_speed == 0.0, !is_adjoint()};
+    return {c0_,          p_.cfl * h() / c0_,    next_.dt,      next_.criterion, p_.cfl, WcsphParameters{}.cfl,
+            p_.time_step, p_.sound_speed == 0.0, !is_adjoint(), p_.shifting};
 }
 
 // Speeds, the next step's length, what went wrong.

@@ -99,11 +99,18 @@ TEST_CASE("LevelProbe.FindsTheSurfaceOfAHalfFilledBox") {
     CHECK(*scene.measure(proto::LevelProbe{{0.1, 0.1, 0.15}, {0.2, 0.1, 0.15}})[0] == Approx(0.1));
 }
 
-TEST_CASE("LevelProbe.TakesTheHighestSurfaceAndOverlooksDropsAndDryLines") {
+TEST_CASE("LevelProbe.TakesTheHighestOrLowestSurfaceAndOverlooksDropsAndDryLines") {
     const auto is_layer = [](const Vec3& x) { return x[1] < 0.1 || (x[1] > 0.2 && x[1] < 0.3); };
     const auto layers = make_fluid(2, kDx, {0, 0, 0}, {0.3, 0.4, 0}, is_layer);
     const proto::LevelProbe line{{0.15, 0, 0}, {0.15, 0.4, 0}};
     CHECK(*Scene{layers, kModel, kDx}.measure(line)[0] == Approx(0.3).margin(0.05 * kDx));
+    proto::LevelProbe lowest = line;
+    lowest.surface = proto::LevelSurface::lowest;
+    CHECK(*Scene{layers, kModel, kDx}.measure(lowest)[0] == Approx(0.1).margin(0.05 * kDx));
+    lowest.from[1] = 0.15;  // dry
+    CHECK(*Scene{layers, kModel, kDx}.measure(lowest)[0] == 0.0);
+    lowest.from[1] = 0.05, lowest.to[1] = 0.08;  // wet all the way
+    CHECK(*Scene{layers, kModel, kDx}.measure(lowest)[0] == Approx(0.03));
 
     const auto is_drop = [](const Vec3& x) {
         return x[1] < 0.1 || (x[1] > 0.3 && x[1] < 0.32 && x[0] > 0.14 && x[0] < 0.16);

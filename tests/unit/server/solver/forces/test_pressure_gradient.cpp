@@ -90,3 +90,11 @@ TEST_CASE("PressureGradient.TensionControlTurnsTheMeanIntoTheDifference") {
     CHECK(adjoint_acceleration<2>(sums, pB, -1.0, 10.0) == std::array{0.0, 0.0});
     CHECK(adjoint_acceleration<2>(sums, pB, 1.0, 10.0)[0] == Approx(0.8));
 }
+
+TEST_CASE("PressureGradient.TensionIsControlledInsideEvenFluidOnly") {
+    const TensionLimits limits{0.9, 0.1};
+    CHECK(controls_tension(-1.0, 0.95, 0.05, limits));
+    CHECK_FALSE(controls_tension(0.0, 0.95, 0.05, limits));   // no tension
+    CHECK_FALSE(controls_tension(-1.0, 0.85, 0.05, limits));  // at a free surface
+    CHECK_FALSE(controls_tension(-1.0, 0.95, 0.15, limits));  // beside a crowd, which it would be shot away from
+}

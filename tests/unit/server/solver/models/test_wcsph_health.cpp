@@ -97,6 +97,14 @@ TEST_CASE("WcsphHealth.ConfinedFormsAreNamedWhereTheyBreakAFreeSurface") {
     CHECK(remedy_for(FaultKind::density, limits).find("set free_surface to true") != std::string::npos);
 }
 
+TEST_CASE("WcsphHealth.MissingShiftingIsNamedWhereParticlesCrowd") {
+    RunLimits limits = kLimits;
+    CHECK(remedy_for(FaultKind::density, limits).find("shifting") == std::string::npos);
+    limits.shifts = false;
+    CHECK(remedy_for(FaultKind::density, limits).find("set shifting to true") != std::string::npos);
+    CHECK(remedy_for(FaultKind::speed, limits).find("set shifting to true") != std::string::npos);
+}
+
 TEST_CASE("WcsphHealth.RemediesFitTheCause") {
     RunLimits limits = kLimits;
     limits.cfl = 1.2;
