@@ -34,9 +34,10 @@ struct Symmetric {
 
     // Matrix times vector.
     HEADRACE_ALWAYS_INLINE std::array<T, D> operator*(const std::array<T, D>& u) const {
-        std::array<T, D> product{};
+        std::array<T, D> product;
         for (int r = 0; r < D; ++r) {
-            for (int c = 0; c < D; ++c) product[r] += (*this)(r, c) * u[c];
+            product[r] = (*this)(r, 0) * u[0];
+            for (int c = 1; c < D; ++c) product[r] += (*this)(r, c) * u[c];
         }
         return product;
     }

@@ -93,9 +93,7 @@ struct PlainPass {
         sums.diffusion += solver::plain_diffusion<D, T>(pair, F, neighbour(D) - self(D), T(0.0));
         // With the linear state equation p_i + p_j = rho0 c0^2 (delta_i + delta_j). Artificial viscosity adds to it:
         // one factor of x_ij for both.
-        solver::Pair<D, T> unit = pair;
-        unit.V_j = T(1.0);
-        const T approach = solver::approach_factor<D, T>(unit, T(1.0), solver::dot<D, T>(v_ij, pair.x_ij));
+        const T approach = solver::approach_rate<D, T>(pair, solver::dot<D, T>(v_ij, pair.x_ij));
         const T weight = self(D) + neighbour(D) - kAlpha * 0.5 * support_over_c * approach;
         solver::PressureSums<D, T> pressure;
         pressure.pB_grad = sums.push;

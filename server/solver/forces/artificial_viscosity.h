@@ -14,17 +14,18 @@
 
 namespace headrace::solver {
 
-// pi_ij V_j F, to be multiplied by x_ij: finite at r = 0, where the approach v_ij . x_ij vanishes with r^2.
+// pi_ij: finite at r = 0, where the approach v_ij . x_ij vanishes with r^2.
 template <int D, class T>
-HEADRACE_ALWAYS_INLINE T approach_factor(const Pair<D, T>& pair, const T& F, const T& approach) {
-    return pair.V_j * F * approach / maximum(pair.r2, tiny<T>());
+HEADRACE_ALWAYS_INLINE T approach_rate(const Pair<D, T>& pair, const T& approach) {
+    return approach / maximum(pair.r2, tiny<T>());
 }
 
-// Monaghan's form: mean_strain = 0.
+// sum_of_strains = S_i + S_j; Monaghan's form: 0.
 template <int D, class T>
-HEADRACE_ALWAYS_INLINE T approach_factor(const Pair<D, T>& pair, const T& F, const VectorOf<D, T>& v_ij,
-                                         const Symmetric<D, T>& mean_strain) {
-    return approach_factor<D, T>(pair, F, dot<D, T>(v_ij, pair.x_ij) - dot<D, T>(pair.x_ij, mean_strain * pair.x_ij));
+HEADRACE_ALWAYS_INLINE T approach_rate(const Pair<D, T>& pair, const VectorOf<D, T>& v_ij,
+                                       const Symmetric<D, T>& sum_of_strains) {
+    return approach_rate<D, T>(pair,
+                               dot<D, T>(v_ij, pair.x_ij) - 0.5 * dot<D, T>(pair.x_ij, sum_of_strains * pair.x_ij));
 }
 
 }  // namespace headrace::solver

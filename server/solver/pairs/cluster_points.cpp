@@ -30,6 +30,7 @@ void ClusterPoints<S>::start(const VectorField& x, const double* V, std::size_t 
     stride_ = static_cast<std::size_t>(dimensions + 1) * kClusterSize;
     records_.resize(clusters() * stride_);
     reference_.resize(clusters());
+    boxes_.resize(clusters());
     start_.resize(clusters() * static_cast<std::size_t>(dimensions) * kClusterSize);
     motion_.resize((clusters() + kMotionBlock - 1) / kMotionBlock);
     pack<true>(x, V);
@@ -56,8 +57,8 @@ void ClusterPoints<S>::pack(const VectorField& x, const double* V) {
             float* start = &start_[c * static_cast<std::size_t>(dimensions_) * kClusterSize];
             for (int k = 0; k < dimensions_; ++k, record += kClusterSize, start += kClusterSize) {
                 const double* places = x[k].data() + begin;
+                double low = places[0], high = places[0];
                 if constexpr (IsStart) {
-                    double low = places[0], high = places[0];
                     for (std::size_t l = 1; l < in_cluster; ++l) {
                         low = std::min(low, places[l]);
                         high = std::max(high, places[l]);
@@ -65,6 +66,10 @@ void ClusterPoints<S>::pack(const VectorField& x, const double* V) {
                     reference_[c][k] = cube_of(0.5 * (low + high), step_);
                 }
                 const double centre = (reference_[c][k] + 0.5) * step_;
+                if constexpr (IsStart) {
+                    boxes_[c].centre[k] = static_cast<float>(0.5 * (low + high) - centre);
+                    boxes_[c].half[k] = static_cast<float>(0.5 * (high - low));
+                }
                 for (std::size_t l = 0; l < kClusterSize; ++l) {
                     const double place = l < in_cluster ? places[l] - centre : kOutOfReach * step_;
                     record[l] = static_cast<S>(place);

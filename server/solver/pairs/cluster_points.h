@@ -23,6 +23,11 @@ struct MotionBox {
     std::array<float, 3> low{}, high{};
 };
 
+// Box around a cluster's points when the order was new, relative to its reference point [m].
+struct ClusterBox {
+    std::array<float, 3> centre{}, half{};
+};
+
 // S: float or double.
 template <class S>
 class ClusterPoints {
@@ -47,6 +52,7 @@ class ClusterPoints {
         return part(0) | part(1) << 21 | part(2) << 42;
     }
     double reference_step() const { return step_; }  // [m]
+    const ClusterBox& box(std::size_t cluster) const { return boxes_[cluster]; }
 
     const std::vector<MotionBox>& motion() const { return motion_; }  // per block of clusters, since start()
 
@@ -60,6 +66,7 @@ class ClusterPoints {
     std::size_t stride_{};
     AlignedArray<S> records_;
     std::vector<std::array<std::int32_t, 3>> reference_;
+    std::vector<ClusterBox> boxes_;
     AlignedArray<float> start_;  // [clusters][D][4] relative places when the order was new
     std::vector<MotionBox> motion_;
 };

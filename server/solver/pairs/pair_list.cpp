@@ -1,7 +1,6 @@
 #include "server/solver/pairs/pair_list.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "server/solver/parallel.h"
@@ -15,51 +14,6 @@ constexpr double kFarSkins = 4.0;
 
 // Relative places are rounded: the reach is longer by this share.
 constexpr double kRounding = 4e-6;
-
-struct Extent {
-    Vec3 low{}, high{};
-};
-
-Extent extent_of(const VectorField& x, int dimensions, std::size_t begin, std::size_t end) {
-    Extent extent;
-    for (int k = 0; k < dimensions; ++k) {
-        const auto [low, high] = std::minmax_element(x[k].begin() + static_cast<std::ptrdiff_t>(begin),
-                                                     x[k].begin() + static_cast<std::ptrdiff_t>(end));
-        extent.low[k] = *low;
-        extent.high[k] = *high;
-    }
-    return extent;
-}
-
-// Points far apart that follow each other in the order: spray, or the ends of rows of a ragged body.
-bool is_wide(const Extent& extent, int dimensions, double reach) {
-    constexpr double kWidest = 16.0;
-    for (int k = 0; k < dimensions; ++k) {
-        if (!(extent.high[k] - extent.low[k] < kWidest * reach)) return true;
-    }
-    return false;
-}
-
-// Runs near the points [begin, end): near the box around them all, or near each of them.
-template <class Visit>
-void for_each_run_near(const ClusterOrder& order, const VectorField& x, int dimensions, std::size_t begin,
-                       std::size_t end, const Extent& extent, double reach, bool is_torn, Visit&& visit) {
-    if (!is_torn) {
-        order.for_each_run(extent.low, extent.high, reach, visit);
-        return;
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-        const Extent point = extent_of(x, dimensions, i, i + 1);
-        order.for_each_run(point.low, point.high, reach, visit);
-    }
-}
-
-void drop_repeated(std::vector<Candidate>& candidates) {
-    const auto key = [](const Candidate& c) { return std::pair(c.offset, c.cluster); };
-    std::sort(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
-    candidates.erase(std::unique(candidates.begin(), candidates.end(), is_same), candidates.end());
-}
 
 // Longest difference between a displacement of one box and one of the other, squared.
 double difference2(const MotionBox& a, const MotionBox& b) {
@@ -91,22 +45,19 @@ void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, c
     const std::size_t count = (centres.clusters() + kMotionBlock - 1) / kMotionBlock;
     blocks_.resize(count);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
-    for (Scratch& scratch : scratch_) {
-        scratch.stamp.assign(neighbours.clusters(), 0);
-        scratch.look = 0;
-    }
+    const double reach = (options.support + options.skin) * (1.0 + kRounding);
+    for (Scratch& scratch : scratch_)
+        scratch.clusters.start({&centres, &x, &neighbours, &order, reach, options.period});
     parallel_for(count, 4, [&](std::size_t first, std::size_t last, int thread) {
         for (std::size_t b = first; b < last; ++b)
-            build_block(b, centres, x, neighbours, order, options, scratch_[static_cast<std::size_t>(thread)]);
+            build_block(b, centres, x, order, options, scratch_[static_cast<std::size_t>(thread)]);
     });
     if (options.visibility != nullptr) refresh(*options.visibility, centres.size(), neighbours.size());
 }
 
 template <class S>
 void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, const VectorField& x,
-                              const ClusterPoints<S>& neighbours, const ClusterOrder& order,
-                              const ReachOptions& options, Scratch& scratch) {
-    const double reach = (options.support + options.skin) * (1.0 + kRounding);
+                              const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) {
     PairBlock<S>& block = blocks_[b];
     scratch.groups.clear();
     scratch.entries.clear();
@@ -114,74 +65,19 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     list_nearby(block, x, centres.dimensions(), first * kClusterSize, std::min(last * kClusterSize, centres.size()),
                 order, options, scratch);
     block.first_group.fill(0);
-    if (block.nearby.empty()) {
-        block.groups.clear();
-        block.entries.clear();
-        block.seen.clear();
-        return;
-    }
     bool needs_visibility = false;
-    for (std::size_t c = first; c < last; ++c) {
-        block.first_group[c - first] = static_cast<Index>(scratch.groups.size());
-        const std::size_t begin = c * kClusterSize, end = std::min(begin + kClusterSize, centres.size());
-        const Extent extent = extent_of(x, centres.dimensions(), begin, end);
-        if (options.visibility != nullptr) needs_visibility |= options.visibility->is_needed_near(extent.low);
-        scratch.candidates.clear();
-        scratch.ways.clear();
-        scratch.offsets.clear();
-        std::array<int, 3> image{};
-        scratch.images.assign(1, image);
-        ++scratch.look;
-        Index which = 0;  // of the images
-        std::size_t way = 0;
-        const bool is_torn = is_wide(extent, centres.dimensions(), reach);
-        for_each_run_near(order, x, centres.dimensions(), begin, end, extent, reach, is_torn, [&](const SlotRun& run) {
-            if (run.image != image) {
-                ++scratch.look;
-                image = run.image;
-                const auto known = std::find(scratch.images.begin(), scratch.images.end(), image);
-                which = static_cast<Index>(known - scratch.images.begin());
-                if (known == scratch.images.end()) scratch.images.push_back(image);
+    for (std::size_t c = first; c < last && !block.nearby.empty();) {
+        const std::size_t end = scratch.clusters.find(c, last);
+        for (; c < end; ++c) {
+            block.first_group[c - first] = static_cast<Index>(scratch.groups.size());
+            if (options.visibility != nullptr) {
+                const std::size_t begin = c * kClusterSize;
+                const Extent extent =
+                    extent_of(x, centres.dimensions(), begin, std::min(begin + kClusterSize, centres.size()));
+                needs_visibility |= options.visibility->is_needed_near(extent.low);
             }
-            for (Index j = run.begin / kClusterSize; j <= (run.end - 1) / kClusterSize; ++j) {
-                if (scratch.stamp[j] == scratch.look) continue;
-                scratch.stamp[j] = scratch.look;
-                const std::uint64_t reference = neighbours.reference_key(j);
-                const auto leads_there = [&](std::size_t w) {
-                    return w < scratch.ways.size() && scratch.ways[w].reference == reference &&
-                           scratch.ways[w].image == which;
-                };
-                if (!leads_there(way)) {
-                    for (way = 0; way < scratch.ways.size() && !leads_there(way);) ++way;
-                    if (way == scratch.ways.size()) {
-                        scratch.ways.push_back({reference, which});
-                        std::array<S, 3> offset{};
-                        for (int k = 0; k < centres.dimensions(); ++k)
-                            offset[k] = static_cast<S>((centres.reference(c)[k] - neighbours.reference(j)[k]) *
-                                                           centres.reference_step() -
-                                                       image[k] * options.period[k]);
-                        scratch.offsets.push_back(offset);
-                    }
-                }
-                scratch.candidates.push_back({j, static_cast<Index>(way)});
-            }
-        });
-        if (is_torn) drop_repeated(scratch.candidates);
-        const std::size_t kept = filter_reach(
-            {centres.dimensions(), centres.record(c), end - begin, neighbours.record(0), scratch.offsets.data(), reach},
-            scratch.candidates.data(), scratch.candidates.size());
-        scratch.counts.assign(scratch.ways.size() + 1, 0);
-        for (std::size_t k = 0; k < kept; ++k) ++scratch.counts[scratch.candidates[k].offset + 1];
-        const auto base = static_cast<Index>(scratch.entries.size());
-        scratch.counts[0] = base;
-        for (std::size_t w = 0; w < scratch.ways.size(); ++w) {
-            scratch.counts[w + 1] += scratch.counts[w];
-            if (scratch.counts[w + 1] > scratch.counts[w])
-                scratch.groups.push_back({scratch.counts[w], scratch.counts[w + 1], scratch.offsets[w]});
+            list_near(scratch, c);
         }
-        scratch.entries.resize(base + kept);
-        for (std::size_t k = 0; k < kept; ++k)
-            scratch.entries[scratch.counts[scratch.candidates[k].offset]++] = scratch.candidates[k].cluster;
     }
     for (std::size_t c = last - first; c <= kMotionBlock; ++c)
         block.first_group[c] = static_cast<Index>(scratch.groups.size());
@@ -189,6 +85,22 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     block.entries.assign(scratch.entries.begin(), scratch.entries.end());
     block.seen.clear();
     if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
+}
+
+// Entries on one way are a group.
+template <class S>
+void PairList<S>::list_near(Scratch& scratch, std::size_t centre) {
+    constexpr Index kNone = ~Index{0};
+    Index way = kNone;
+    for (const Candidate& candidate : scratch.clusters.near(centre)) {
+        const auto at = static_cast<Index>(scratch.entries.size());
+        if (candidate.offset != way) {
+            way = candidate.offset;
+            scratch.groups.push_back({at, at, scratch.clusters.offset(way)});
+        }
+        scratch.entries.push_back(candidate.cluster);
+        scratch.groups.back().end = at + 1;
+    }
 }
 
 template <class S>
@@ -263,8 +175,7 @@ void PairList<S>::list_nearby(PairBlock<S>& block, const VectorField& x, int dim
     const double reach = (options.support + skin_ + far_skin_) * (1.0 + kRounding);
     scratch.nearby.clear();
     const Extent extent = extent_of(x, dimensions, begin, end);
-    const bool is_torn = is_wide(extent, dimensions, reach);
-    for_each_run_near(order, x, dimensions, begin, end, extent, reach, is_torn, [&](const SlotRun& run) {
+    for_each_run_near(order, x, dimensions, begin, end, extent, reach, [&](const SlotRun& run) {
         for (Index j = run.begin / kSlots; j <= (run.end - 1) / kSlots; ++j) {
             if (scratch.nearby.empty() || scratch.nearby.back() != j) scratch.nearby.push_back(j);
         }

@@ -11,7 +11,7 @@
 
 #include "server/solver/pairs/cluster_order.h"
 #include "server/solver/pairs/cluster_points.h"
-#include "server/solver/pairs/reach_filter.h"
+#include "server/solver/pairs/nearby_clusters.h"
 #include "server/solver/visibility.h"
 
 namespace headrace::solver {
@@ -72,17 +72,8 @@ class PairList {
 
   private:
     struct Scratch {
-        struct Way {  // from the centre's reference point and period to the neighbour's
-            std::uint64_t reference;
-            Index image;  // which of the centre's images, counted as they come
-        };
-        std::vector<Index> stamp;  // of each cluster of neighbours: the last look at it
-        Index look{};
-        std::vector<Candidate> candidates;
-        std::vector<Way> ways;
-        std::vector<std::array<int, 3>> images;
+        NearbyClusters<S> clusters;
         std::vector<std::array<S, 3>> offsets;
-        std::vector<Index> counts;
         std::vector<PairGroup<S>> groups;
         std::vector<Index> entries, nearby;
     };
@@ -94,8 +85,8 @@ class PairList {
     void build_transposed_block(std::size_t block, const std::vector<Index>& first, const std::vector<Reverse>& entries,
                                 Scratch& scratch);
     void build_block(std::size_t block, const ClusterPoints<S>& centres, const VectorField& x,
-                     const ClusterPoints<S>& neighbours, const ClusterOrder& order, const ReachOptions& options,
-                     Scratch& scratch);
+                     const ClusterOrder& order, const ReachOptions& options, Scratch& scratch);
+    static void list_near(Scratch& scratch, std::size_t centre);
     void list_nearby(PairBlock<S>& block, const VectorField& x, int dimensions, std::size_t begin, std::size_t end,
                      const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) const;
 

@@ -72,30 +72,27 @@ struct NeighbourSource {
     const S* fields{};
 };
 
-// Adds the pairs of a centre cluster's points with one kind of neighbours.
-template <bool IsWall, int D, std::size_t Fields, class S, class Pass, class Self>
+// Adds the pairs of a centre cluster's points with one kind of neighbours. IsHidden: some may not interact.
+template <bool IsWall, bool IsHidden, int D, std::size_t Fields, class S, class Pass, class Self>
 HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<PairLanes<S>, D>& x_i,
                           std::size_t first_point, const PairBlock<S>& block, std::size_t c,
                           const NeighbourSource<S>& source, typename Pass::template Sums<PairLanes<S>>& sums) {
     using T = PairLanes<S>;
     constexpr std::size_t kRecord = 4 * (D + 1), kFields = 4 * Fields;
     const S* records = source.points->record(0);
-    const Index* entries = block.entries.data();
-    const bool is_hidden_in_part = !block.seen.empty();
+    const Index* const entries = block.entries.data();
     for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
         const PairGroup<S>& group = block.groups[g];
         std::array<T, D> x;
         for (int k = 0; k < D; ++k) x[k] = x_i[k] + T(static_cast<double>(group.offset[k]));
-        for (Index e = group.begin; e < group.end; ++e) {
-            const std::size_t j = entries[e];
-            const S* record = records + j * kRecord;
-            const S* fields = source.fields + j * kFields;
+        const auto meet = [&](Index e) {
+            const S* record = records + entries[e] * kRecord;
             Pair<D, T> pair;
             for (int k = 0; k < D; ++k) pair.x_ij[k] = x[k] - load_four<S>(record + 4 * k);
             pair.r2 = dot<D, T>(pair.x_ij, pair.x_ij);
             pair.r = square_root<S>(pair.r2);
             pair.V_j = load_four<S>(record + 4 * D);
-            if (is_hidden_in_part) {
+            if constexpr (IsHidden) {
                 // Rare, beside thin panels: hidden neighbours have no volume.
                 alignas(64) S seen[T::kCount];
                 for (std::size_t l = 0; l < T::kCount; ++l)
@@ -104,6 +101,18 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<P
                 __builtin_memcpy(&weight.v, seen, sizeof weight.v);
                 pair.V_j *= weight;
             }
+            return pair;
+        };
+        // One ahead, where there are registers enough: the square root takes as long as the rest.
+        constexpr bool kIsAhead = HWY_TARGET == HWY_AVX3;
+        Pair<D, T> next;
+        if constexpr (kIsAhead) next = meet(group.begin);
+        for (Index e = group.begin; e < group.end; ++e) {
+            const Pair<D, T> pair = kIsAhead ? next : meet(e);
+            if constexpr (kIsAhead) {
+                if (e + 1 < group.end) next = meet(e + 1);
+            }
+            const S* fields = source.fields + entries[e] * kFields;
             FieldsOf<T, Fields> neighbour;
             for (std::size_t f = 0; f < Fields; ++f) neighbour.field[f] = load_four<S>(fields + 4 * f);
             pass.template pair<IsWall>(self, pair, neighbour, sums);
@@ -141,11 +150,20 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
                 self.field[f] = spread_four<S>(&four[part]);
             }
             LaneSums sums{};
-            add_pairs<false, D, Pass::kFluidFields, S>(pass, self, x_i, part, block, c - first, fluid, sums);
+            if (block.seen.empty())
+                add_pairs<false, false, D, Pass::kFluidFields, S>(pass, self, x_i, part, block, c - first, fluid, sums);
+            else
+                add_pairs<false, true, D, Pass::kFluidFields, S>(pass, self, x_i, part, block, c - first, fluid, sums);
             if constexpr (Pass::kReadsWalls) {
-                if (walls.list != nullptr)
-                    add_pairs<true, D, Pass::kWallFields, S>(pass, self, x_i, part, walls.list->blocks()[b], c - first,
-                                                             walls, sums);
+                if (walls.list != nullptr) {
+                    const PairBlock<S>& of_walls = walls.list->blocks()[b];
+                    if (of_walls.seen.empty())
+                        add_pairs<true, false, D, Pass::kWallFields, S>(pass, self, x_i, part, of_walls, c - first,
+                                                                        walls, sums);
+                    else
+                        add_pairs<true, true, D, Pass::kWallFields, S>(pass, self, x_i, part, of_walls, c - first,
+                                                                       walls, sums);
+                }
             }
             std::array<T, kSums> fours;
             __builtin_memcpy(static_cast<void*>(&fours), &sums, sizeof fours);

@@ -40,6 +40,43 @@ std::size_t filter(const ReachQuery<S>& query, Candidate* candidates, std::size_
     return kept;
 }
 
+// Longer than the reach by this share: places are rounded to float.
+constexpr double kRounding = 1e-4;
+
+template <int D>
+std::size_t boxes_within(const BoxQuery& query, Index* kept) {
+    const hn::CappedTag<float, BoxQuery::kPadding> d;
+    const hn::RebindToUnsigned<decltype(d)> du;
+    static_assert(sizeof(Index) == sizeof(hn::TFromD<decltype(du)>));
+    std::array<hn::Vec<decltype(d)>, D> centre, half;
+    for (int k = 0; k < D; ++k) {
+        centre[k] = hn::Set(d, query.box.centre[k]);
+        half[k] = hn::Set(d, query.box.half[k]);
+    }
+    const auto reach2 = hn::Set(d, static_cast<float>(query.reach * query.reach * (1.0 + 2.0 * kRounding)));
+    const auto zero = hn::Zero(d);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < query.count; k += hn::Lanes(d)) {
+        auto gap2 = zero;
+        for (int a = 0; a < D; ++a) {
+            const auto apart = hn::Abs(hn::Sub(hn::Load(d, query.centre[a] + k), centre[a]));
+            const auto gap = hn::Max(zero, hn::Sub(apart, hn::Add(hn::Load(d, query.half[a] + k), half[a])));
+            gap2 = hn::MulAdd(gap, gap, gap2);
+        }
+        const auto numbers = hn::Iota(du, static_cast<Index>(k));
+        const auto is_near = hn::RebindMask(du, hn::Le(gap2, reach2));
+        // Compressing into memory is slow on some machines.
+        hn::StoreU(hn::Compress(numbers, is_near), du, kept + count);
+        count += hn::CountTrue(du, is_near);
+    }
+    while (count > 0 && kept[count - 1] >= query.count) --count;  // the padding
+    return count;
+}
+
+std::size_t filter_boxes_of(const BoxQuery& query, Index* kept) {
+    return query.dimensions == 2 ? boxes_within<2>(query, kept) : boxes_within<3>(query, kept);
+}
+
 std::size_t filter_float(const ReachQuery<float>& query, Candidate* candidates, std::size_t count) {
     return query.dimensions == 2 ? filter<float, 2>(query, candidates, count)
                                  : filter<float, 3>(query, candidates, count);
@@ -55,8 +92,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace headrace::solver {
 
+HWY_EXPORT(filter_boxes_of);
 HWY_EXPORT(filter_float);
 HWY_EXPORT(filter_double);
+
+std::size_t filter_boxes(const BoxQuery& query, Index* kept) {
+    return HWY_DYNAMIC_DISPATCH(filter_boxes_of)(query, kept);
+}
 
 std::size_t filter_reach(const ReachQuery<float>& query, Candidate* candidates, std::size_t count) {
     return HWY_DYNAMIC_DISPATCH(filter_float)(query, candidates, count);

@@ -58,8 +58,9 @@ class PairTerms {
 
     Vector artificial_viscosity(Index i, Index j, const Pair<D, double>& pair, double F) const {
         const Symmetric<D> S_i = matrix_at<D>(view_.state.strain, i), S_j = matrix_at<D>(view_.state.strain, j);
-        const double factor = approach_factor<D, double>(pair, F, velocity_difference(i, j), mean(S_i, S_j));
-        return scaled<D, double>(options_.pressure.artificial_viscosity / view_.particles.rho[i] * factor, pair.x_ij);
+        const double rate = approach_rate<D, double>(pair, velocity_difference(i, j), sum(S_i, S_j));
+        return scaled<D, double>(options_.pressure.artificial_viscosity / view_.particles.rho[i] * pair.V_j * F * rate,
+                                 pair.x_ij);
     }
 
     Vector viscosity(Index i, Index j, const Pair<D, double>& pair, double F) const {
@@ -86,9 +87,14 @@ class PairTerms {
     }
 
   private:
+    static Symmetric<D> sum(const Symmetric<D>& a, const Symmetric<D>& b) {
+        Symmetric<D> sum;
+        for (int k = 0; k < Symmetric<D>::kSize; ++k) sum.e[k] = a.e[k] + b.e[k];
+        return sum;
+    }
     static Symmetric<D> mean(const Symmetric<D>& a, const Symmetric<D>& b) {
-        Symmetric<D> mean;
-        for (int k = 0; k < Symmetric<D>::kSize; ++k) mean.e[k] = 0.5 * (a.e[k] + b.e[k]);
+        Symmetric<D> mean = sum(a, b);
+        for (double& component : mean.e) component *= 0.5;
         return mean;
     }
 

@@ -300,7 +300,9 @@ struct PressurePass {
     template <class T>
     struct Sums {
         PressureSums<D, T> fluid, walls;
-        std::array<T, D> artificial{};
+        // Of the artificial viscosity. In the adjoint form it acts like a pressure -alpha h c0 rho0 pi_ij of the
+        // neighbour and is summed with it.
+        std::array<T, IsAdjoint ? 1 : D> artificial{};
     };
 
     std::array<const double*, kCentreFields> centre_fields() const {
@@ -332,21 +334,26 @@ struct PressurePass {
         if constexpr (IsWall) {
             accumulate_difference<D, T>(grad, neighbour(0), sums.walls);
         } else {
-            if constexpr (IsAdjoint) {
-                Symmetric<D, T> pB_j;
-                pB_j.e = fields_of<T, symmetric_size(D)>(neighbour, 0);
-                accumulate_adjoint<D, T>(grad, pB_j, sums.fluid);
-            } else {
-                accumulate_difference<D, T>(grad, neighbour(0), sums.fluid);
-            }
+            T rate(0.0);
             if constexpr (HasAlpha) {
                 const std::array<T, D> v_ij =
                     minus<D, T>(fields_of<T, D>(self, 0), fields_of<T, D>(neighbour, kPressureFields));
-                Symmetric<D, T> mean_strain;
+                Symmetric<D, T> strains;
                 for (int k = 0; k < symmetric_size(D); ++k)
-                    mean_strain.e[k] = 0.5 * (self(D + k) + neighbour(kPressureFields + D + k));
-                add_to<D, T>(sums.artificial,
-                             scaled<D, T>(approach_factor<D, T>(pair, F, v_ij, mean_strain), pair.x_ij));
+                    strains.e[k] = self(D + k) + neighbour(kPressureFields + D + k);
+                rate = approach_rate<D, T>(pair, v_ij, strains);
+            }
+            if constexpr (IsAdjoint) {
+                Symmetric<D, T> pB_j;
+                pB_j.e = fields_of<T, symmetric_size(D)>(neighbour, 0);
+                if constexpr (HasAlpha) {
+                    const T damping = options.artificial_viscosity * rate;
+                    for (int k = 0; k < D; ++k) pB_j(k, k) -= damping;
+                }
+                accumulate_adjoint<D, T>(grad, pB_j, sums.fluid);
+            } else {
+                accumulate_difference<D, T>(grad, neighbour(0), sums.fluid);
+                if constexpr (HasAlpha) add_to<D, T>(sums.artificial, scaled<D, T>(rate, grad));
             }
         }
     }
@@ -369,7 +376,7 @@ struct PressurePass {
         } else {
             a = difference_acceleration<D>(total, p, B, rho);
         }
-        if constexpr (HasAlpha) {
+        if constexpr (HasAlpha && !IsAdjoint) {
             for (int k = 0; k < D; ++k) a[k] += options.artificial_viscosity / rho * sums.artificial[k];
         }
         for (int k = 0; k < D; ++k) data.particles.a[k][i] = a[k] + data.state.a_slow[k][i];
