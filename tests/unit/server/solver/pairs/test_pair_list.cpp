@@ -21,11 +21,12 @@ NeighbourInput input_of(const Points& fluid, const Points* walls = nullptr) {
     return in;
 }
 
-// Pairs of points (centre, neighbour) that the list leads to, with how often.
+// Pairs of points (centre, neighbour) nearer than `within` that the list leads to, with how often.
 template <class S>
 std::map<std::pair<std::size_t, std::size_t>, int> listed_pairs(const PairList<S>& list,
                                                                 const ClusterPoints<S>& centres,
-                                                                const ClusterPoints<S>& neighbours) {
+                                                                const ClusterPoints<S>& neighbours,
+                                                                double within = kSupport) {
     std::map<std::pair<std::size_t, std::size_t>, int> pairs;
     for (std::size_t c = 0; c < centres.clusters(); ++c) {
         const PairBlock<S>& block = list.blocks()[c / kMotionBlock];
@@ -41,7 +42,7 @@ std::map<std::pair<std::size_t, std::size_t>, int> listed_pairs(const PairList<S
                                          neighbours.record(block.entries[e])[4 * axis + k % 4];
                         r2 += d * d;
                     }
-                    if (r2 < kSupport * kSupport) ++pairs[{i, j}];
+                    if (r2 < within * within) ++pairs[{i, j}];
                 }
             }
         }
@@ -49,19 +50,19 @@ std::map<std::pair<std::size_t, std::size_t>, int> listed_pairs(const PairList<S
     return pairs;
 }
 
-// Every pair within the support once; pairs at its very edge may go either way.
+// Every pair within the support, or another distance, once; pairs at its very edge may go either way.
 template <class S>
-void check_complete(const PairNeighboursOf<S>& neighbours, const Points& points) {
+void check_complete(const PairNeighboursOf<S>& neighbours, const Points& points, double within = kSupport) {
     constexpr double kEdge = 1e-5;  // rounding of relative places, a hundred spacings at most
-    const auto pairs = listed_pairs(neighbours.among_fluid(), neighbours.fluid(), neighbours.fluid());
+    const auto pairs = listed_pairs(neighbours.among_fluid(), neighbours.fluid(), neighbours.fluid(), within);
     std::size_t missing = 0, wrong = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         for (std::size_t j = 0; j < points.size(); ++j) {
             const double r = points.distance(i, j);
             const auto found = pairs.find({i, j});
             const int count = found == pairs.end() ? 0 : found->second;
-            missing += r < kSupport - kEdge && count != 1;
-            wrong += r > kSupport + kEdge && count != 0;
+            missing += r < within - kEdge && count != 1;
+            wrong += r > within + kEdge && count != 0;
         }
     }
     CHECK(missing == 0);
@@ -89,13 +90,14 @@ Points make_body(const std::string& kind, int dimensions) {
 
 }  // namespace
 
-TEST_CASE("PairList.HasEveryPairWithinTheSupportOnce") {
+TEST_CASE("PairList.HasEveryPairWithinTheSupportAndItsSkinOnce") {
     const int dimensions = GENERATE(2, 3);
     const std::string kind = GENERATE("body", "periods", "spray", "spray about a corner of periods");
     const Points points = make_body(kind, dimensions);
     PairNeighboursOf<double> neighbours;
     neighbours.find(input_of(points));
     check_complete(neighbours, points);
+    check_complete(neighbours, points, kSupport + kSkin);
 }
 
 TEST_CASE("PairList.MissesNoPairAsLongAsItSaysSo") {
