@@ -1,6 +1,7 @@
 #include "server/solver/pairs/nearby_clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -9,6 +10,13 @@ namespace {
 
 // Extents up to this many reaches are looked at as one box.
 constexpr double kWidest = 8.0;
+
+// What rounding to float may have taken from a box of this half width at this place, and somewhat more: the clusters of
+// spray are as wide as the scene.
+float rounding_of(float centre, float half, float shift) {
+    constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
+    return 4.0f * kEpsilon * (std::abs(centre) + half + std::abs(shift));
+}
 
 void drop_repeated(std::vector<Candidate>& candidates) {
     const auto key = [](const Candidate& c) { return std::pair(c.offset, c.cluster); };
@@ -143,7 +151,7 @@ void NearbyClusters<S>::place_boxes(std::size_t base) {
             for (std::size_t c = begin; c < counts_[w]; ++c) {
                 const ClusterBox& box = setting_.neighbours->box(sorted_[c].cluster);
                 centre_[k][c] = box.centre[k] + shift;
-                half_[k][c] = box.half[k];
+                half_[k][c] = box.half[k] + rounding_of(box.centre[k], box.half[k], shift);
             }
         }
         std::fill_n(&centre_[k][count], BoxQuery::kPadding, std::numeric_limits<float>::max());
@@ -161,7 +169,9 @@ const std::vector<Candidate>& NearbyClusters<S>::near(std::size_t centre) {
     for (int k = 0; k < dimensions; ++k) {
         boxes.centre[k] = centre_[k].data();
         boxes.half[k] = half_[k].data();
-        boxes.box.centre[k] += static_cast<float>((reference[k] - base_[k]) * centres.reference_step());
+        const auto shift = static_cast<float>((reference[k] - base_[k]) * centres.reference_step());
+        boxes.box.half[k] += rounding_of(boxes.box.centre[k], boxes.box.half[k], shift);
+        boxes.box.centre[k] += shift;
     }
     const std::size_t within = filter_boxes(boxes, kept_.data());
     near_.resize(within);

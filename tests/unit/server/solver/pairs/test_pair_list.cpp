@@ -100,6 +100,28 @@ TEST_CASE("PairList.HasEveryPairWithinTheSupportAndItsSkinOnce") {
     check_complete(neighbours, points, kSupport + kSkin);
 }
 
+TEST_CASE("PairList.HasThePairsOfClustersAsWideAsTheScene") {
+    // One of a cluster's points just within reach of another's, the others where float places are hundredths apart:
+    // boxes around them round by more than the pair has left.
+    constexpr double kReach = kSupport + kSkin;
+    for (int trial = 0; trial < 200; ++trial) {
+        Points points;
+        points.dimensions = 2;
+        const double far = 2e5 + 777.77 * trial, x = 0.003 * trial;
+        points.add({x, 0, 0});
+        points.add({x + kReach - 1e-4, 0, 0});
+        for (int k = 1; k <= 3; ++k) {
+            points.add({-k * far, 0, 0});
+            points.add({k * far + 0.1, 0, 0});
+        }
+        points.sort();
+        PairNeighboursOf<double> neighbours;
+        neighbours.find(input_of(points));
+        INFO("trial " << trial);
+        check_complete(neighbours, points, kReach);
+    }
+}
+
 TEST_CASE("PairList.MissesNoPairAsLongAsItSaysSo") {
     // A carried, turning and shaken body: lists are kept until covers() gives them up.
     const int dimensions = GENERATE(2, 3);
