@@ -10,8 +10,7 @@ namespace headrace::validation {
 namespace {
 
 constexpr double kRho = 1000.0;           // [kg/m^3]
-constexpr double kCheck = 1.0;            // [s] between two looks at the kinetic energy
-constexpr double kSteady = 1e-4;          // [1/s] relative change of the kinetic energy
+constexpr double kCheck = 1.0;            // [s] between two looks
 constexpr double kReachInSpacings = 2.5;  // of the interpolation
 
 // The walls take part in the interpolation: points along them, a spacing apart, move as they do.
@@ -33,48 +32,47 @@ void add_wall_points(solver::Particles& particles, double spacing) {
     }
 }
 
-double root_mean_square(const std::vector<double>& a, const std::vector<double>& b) {
+double mean_square(const std::vector<double>& a, const std::vector<double>& b) {
     double square = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
-    return std::sqrt(square / static_cast<double>(a.size()));
+    return square / static_cast<double>(a.size());
 }
 
-// From rest until the kinetic energy no longer changes.
+// The flow is steady, the particles that carry it are not: what one look finds differs from the next. The errors are
+// root mean squares over the looks in the last quarter of the run, each as large as one look would have told.
 class Cavity : public RegularObserver {
   public:
-    Cavity(double end, std::size_t column) : RegularObserver(end, kCheck), column_(column) {}
+    Cavity(double end, std::size_t column)
+        : RegularObserver(end, kCheck),
+          u_(load_reference("lid_driven_cavity/u_centreline_computed_full.csv")),
+          v_(load_reference("lid_driven_cavity/v_centreline_computed_full.csv")),
+          column_(column) {}
 
     void sample(const scene::Run& run) override {
-        const double energy = kinetic_energy(run.particles());
-        is_steady_ = run.time() > 5 * kCheck && std::abs(energy / energy_ - 1) / kCheck < kSteady;
-        energy_ = energy;
-        particles_ = run.particles();
-        spacing_ = run.scene().spacing;
+        if (run.time() < 0.75 * end_time() || u_.empty() || v_.empty()) return;
+        solver::Particles particles = run.particles();
+        const double spacing = run.scene().spacing;
+        add_wall_points(particles, spacing);
+        std::vector<solver::Vec3> vertical, horizontal;
+        for (const double y : u_[0]) vertical.push_back({0.5, y, 0.0});
+        for (const double x : v_[0]) horizontal.push_back({x, 0.5, 0.0});
+        const double reach = kReachInSpacings * spacing;
+        sum_u_ += mean_square(interpolate(particles, particles.v[0], vertical, reach), u_[column_]);
+        sum_v_ += mean_square(interpolate(particles, particles.v[1], horizontal, reach), v_[column_]);
+        ++looks_;
     }
 
-    bool is_finished() const override { return is_steady_; }
-
     std::vector<Measured> measured() const override {
-        solver::Particles particles = particles_;
-        add_wall_points(particles, spacing_);
-        const Table u = load_reference("lid_driven_cavity/u_centreline_computed_full.csv");
-        const Table v = load_reference("lid_driven_cavity/v_centreline_computed_full.csv");
-        if (u.empty() || v.empty()) return {};
-        std::vector<solver::Vec3> vertical, horizontal;
-        for (const double y : u[0]) vertical.push_back({0.5, y, 0.0});
-        for (const double x : v[0]) horizontal.push_back({x, 0.5, 0.0});
-        const double reach = kReachInSpacings * spacing_;
-        const double error_u = root_mean_square(interpolate(particles, particles.v[0], vertical, reach), u[column_]);
-        const double error_v = root_mean_square(interpolate(particles, particles.v[1], horizontal, reach), v[column_]);
-        return {{"l2_centreline", std::max(error_u, error_v)}, {"l2_u", error_u}, {"l2_v", error_v}};
+        if (looks_ == 0) return {};
+        const double u = std::sqrt(sum_u_ / looks_), v = std::sqrt(sum_v_ / looks_);
+        return {{"l2_centreline", std::max(u, v)}, {"l2_u", u}, {"l2_v", v}};
     }
 
   private:
+    Table u_, v_;
     std::size_t column_;  // of the tables
-    bool is_steady_{false};
-    double energy_{0.0};  // [J/m]
-    double spacing_{};    // [m]
-    solver::Particles particles_;
+    double sum_u_{}, sum_v_{};
+    int looks_{};
 };
 
 Case make(double reynolds, std::size_t column, double resolution, double end, std::vector<Target> targets) {
@@ -98,8 +96,8 @@ Case make(double reynolds, std::size_t column, double resolution, double end, st
 }  // namespace
 
 std::vector<Case> cavity_cases() {
-    return {make(100, 1, 50, 30.0, {{"l2_u", 0.01, 0.003}, {"l2_v", 0.01, 0.003}}), make(400, 2, 100, 60.0, {}),
-            make(1000, 3, 100, 100.0, {{"l2_u", 0.03, 0.01}, {"l2_v", 0.03, 0.01}})};
+    return {make(100, 1, 50, 20.0, {{"l2_u", 0.01, 0.003}, {"l2_v", 0.01, 0.003}}), make(400, 2, 100, 40.0, {}),
+            make(1000, 3, 100, 60.0, {{"l2_u", 0.03, 0.01}, {"l2_v", 0.03, 0.01}})};
 }
 
 }  // namespace headrace::validation

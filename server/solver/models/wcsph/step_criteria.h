@@ -1,7 +1,8 @@
 // What limits the steps of the wcsph model, with h = R/2.
 //
 //   acoustic         cfl h/(c0 + |v|max)                     the pressure-velocity pair
-//   advective        cfl_adv h/|v|max                        neighbours, shifting: a fraction of h a step
+//   advective        cfl_adv h/|v|max                        neighbours, shifting: a fraction of h a step; 0.6 of it
+//                                                            where shifting orders a confined flow
 //   viscous          cfl_adv/2 h^2 rho0/mu                   Morris, Fox, Zhu 1997 (0.125 with cfl_adv = 0.25); half
 //                                                            of it with the form of Monaghan and Gingold
 //   body force       cfl_adv sqrt(h/|a|max)                  Monaghan 1992
@@ -24,6 +25,7 @@ struct StepCriteria {
     double tension_over_density{};  // sigma/rho0 [m^3/s^2]
     double cfl{};
     double advective_cfl{};
+    bool orders_confined_flow{};  // by shifting
     int most_acoustic_steps{1};
 };
 

@@ -334,7 +334,7 @@ StepChoice Wcsph::limit_step(double dt_before) const {
     const double stiffness = is_morris() ? 1.0 : 2.0;
     StepChoice choice =
         choose_step({h(), c0_, max_speed_, max_acceleration_, stiffness * p_.viscosity / p_.rest_density,
-                     p_.surface_tension / p_.rest_density, p_.cfl, p_.advective_cfl,
+                     p_.surface_tension / p_.rest_density, p_.cfl, p_.advective_cfl, p_.shifting && !p_.free_surface,
                      p_.dual_time_step ? static_cast<int>(p_.most_acoustic_steps) : 1});
     const double acoustic = choice.dt / choice.acoustic_steps;
     if (p_.time_step > 0.0) {

@@ -34,6 +34,8 @@ TEST_CASE("StepCriteria.EachIsNamedWhereItLimits") {
     StepCriteria c = usual();
     c.max_speed = 2.0;
     check(c, 0.25 * 0.01 / 2.0, "advective");
+    c.orders_confined_flow = true;
+    check(c, 0.15 * 0.01 / 2.0, "advective");
     c = usual();
     c.kinematic_viscosity = 0.5;
     check(c, 0.125 * 0.01 * 0.01 / 0.5, "viscous");
