@@ -54,6 +54,23 @@ HWY_INLINE PairLanes<S> load_four(const S* aligned) {
 // The first number in the first four lanes, the second in the next four, ...
 template <class S, class From>
 HWY_INLINE PairLanes<S> spread_four(const From* numbers) {
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (sizeof(S) == 4) {
+        const hn::CappedTag<float, 16> d;
+        const hn::CappedTag<float, 4> d4;
+        alignas(64) static constexpr std::int32_t kEach[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+        hn::Vec<decltype(d4)> four;
+        if constexpr (sizeof(From) == 4) {
+            four = hn::LoadU(d4, numbers);
+        } else {
+            four = hn::DemoteTo(d4, hn::LoadU(hn::CappedTag<double, 4>(), numbers));
+        }
+        const hn::Vec<decltype(d)> repeated{_mm512_broadcast_f32x4(four.raw)};
+        PairLanes<S> lanes;
+        lanes.v = (typename PairLanes<S>::Vector)(hn::TableLookupLanes(repeated, hn::SetTableIndices(d, kEach)).raw);
+        return lanes;
+    }
+#endif
     alignas(64) S spread[kPairLanes<S>];
     for (std::size_t k = 0; k < kPairLanes<S>; ++k) spread[k] = static_cast<S>(numbers[k / 4]);
     PairLanes<S> lanes;

@@ -18,12 +18,7 @@ float rounding_of(float centre, float half, float shift) {
     return 4.0f * kEpsilon * (std::abs(centre) + half + std::abs(shift));
 }
 
-void drop_repeated(std::vector<Candidate>& candidates) {
-    const auto key = [](const Candidate& c) { return std::pair(c.offset, c.cluster); };
-    std::sort(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
-    candidates.erase(std::unique(candidates.begin(), candidates.end(), is_same), candidates.end());
-}
+}  // namespace
 
 Extent join(const Extent& a, const Extent& b) {
     Extent both;
@@ -33,8 +28,6 @@ Extent join(const Extent& a, const Extent& b) {
     }
     return both;
 }
-
-}  // namespace
 
 Extent extent_of(const VectorField& x, int dimensions, std::size_t begin, std::size_t end) {
     Extent extent;
@@ -63,109 +56,133 @@ void NearbyClusters<S>::start(const Setting& setting) {
 }
 
 template <class S>
-std::size_t NearbyClusters<S>::find(std::size_t first, std::size_t last) {
+std::size_t NearbyClusters<S>::find(std::size_t first, std::size_t last, const Extent* extents) {
     Extent extent;
-    const std::size_t end = end_of_group(first, last, extent);
+    const std::size_t end = end_of_group(first, last, extents, extent);
     base_ = setting_.centres->reference(first);
     has_offsets_ = false;
     collect(first, end, extent);
-    sort_by_way();
-    place_boxes(first);
+    sort_by_way(first);
     return end;
 }
 
 // A cluster that is wide itself is a group of its own.
 template <class S>
-std::size_t NearbyClusters<S>::end_of_group(std::size_t first, std::size_t last, Extent& extent) const {
-    const ClusterPoints<S>& centres = *setting_.centres;
-    std::size_t end = first;
-    for (; end < last; ++end) {
-        const std::size_t begin = end * kClusterSize;
-        const Extent own =
-            extent_of(*setting_.x, centres.dimensions(), begin, std::min(begin + kClusterSize, centres.size()));
-        const Extent both = end == first ? own : join(extent, own);
-        if (end > first && is_wide(both, centres.dimensions(), setting_.reach)) break;
+std::size_t NearbyClusters<S>::end_of_group(std::size_t first, std::size_t last, const Extent* extents,
+                                            Extent& extent) const {
+    extent = extents[0];
+    for (std::size_t end = first + 1; end < last; ++end) {
+        const Extent both = join(extent, extents[end - first]);
+        if (is_wide(both, setting_.centres->dimensions(), setting_.reach)) return end;
         extent = both;
     }
-    return end;
+    return last;
 }
 
 template <class S>
 void NearbyClusters<S>::collect(std::size_t first, std::size_t end, const Extent& extent) {
     const ClusterPoints<S>& centres = *setting_.centres;
+    const ClusterPoints<S>& neighbours = *setting_.neighbours;
     const std::size_t begin = first * kClusterSize, end_point = std::min(end * kClusterSize, centres.size());
     found_.clear();
     ways_.clear();
-    way_ = 0;
     std::array<int, 3> image{};
+    std::uint64_t key = 0;
+    Index way = ~Index{0};  // of that key and image
     ++look_;
     for_each_run_near(*setting_.order, *setting_.x, centres.dimensions(), begin, end_point, extent, setting_.reach,
                       [&](const SlotRun& run) {
                           if (run.image != image) {
                               ++look_;
                               image = run.image;
+                              way = ~Index{0};
                           }
                           const Index last = (run.end - 1) / kClusterSize;
                           for (Index j = run.begin / kClusterSize; j <= last; ++j) {
                               if (stamp_[j] == look_) continue;
                               stamp_[j] = look_;
-                              found_.push_back({j, way_to(j, image)});
+                              // Those of a row are in few cubes.
+                              const std::uint64_t of_j = neighbours.reference_key(j);
+                              if (of_j != key || way == ~Index{0}) {
+                                  key = of_j;
+                                  way = way_to(j, key, image);
+                              }
+                              found_.push_back({j, way});
                           }
                       });
     if (is_wide(extent, centres.dimensions(), setting_.reach)) drop_repeated(found_);
 }
 
 template <class S>
-Index NearbyClusters<S>::way_to(std::size_t cluster, const std::array<int, 3>& image) {
-    const std::uint64_t key = setting_.neighbours->reference_key(cluster);
-    const auto leads_there = [&](Index w) {
-        return w < ways_.size() && ways_[w].key == key && ways_[w].image == image;
-    };
-    if (leads_there(way_)) return way_;
-    for (way_ = 0; way_ < ways_.size(); ++way_) {
-        if (leads_there(way_)) return way_;
+void NearbyClusters<S>::drop_repeated(std::vector<Candidate>& candidates) {
+    const auto key = [](const Candidate& c) { return std::pair(c.way, c.cluster); };
+    std::sort(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
+    candidates.erase(std::unique(candidates.begin(), candidates.end(), is_same), candidates.end());
+}
+
+template <class S>
+Index NearbyClusters<S>::way_to(std::size_t cluster, std::uint64_t key, const std::array<int, 3>& image) {
+    for (std::size_t w = 0; w < ways_.size(); ++w) {
+        if (ways_[w].key == key && ways_[w].image == image) return static_cast<Index>(w);
     }
     ways_.push_back({key, setting_.neighbours->reference(cluster), image});
-    return way_;
+    return static_cast<Index>(ways_.size() - 1);
 }
 
+// Sorts the candidates, and places the boxes around them relative to the first centre's reference point.
 template <class S>
-void NearbyClusters<S>::sort_by_way() {
-    counts_.assign(ways_.size() + 1, 0);
-    for (const Candidate& candidate : found_) ++counts_[candidate.offset + 1];
-    for (std::size_t w = 1; w < counts_.size(); ++w) counts_[w] += counts_[w - 1];
-    sorted_.resize(found_.size());
-    for (const Candidate& candidate : found_) sorted_[counts_[candidate.offset]++] = candidate;
-}
-
-template <class S>
-void NearbyClusters<S>::place_boxes(std::size_t base) {
-    const std::size_t count = sorted_.size();
-    const auto& reference = setting_.centres->reference(base);
-    for (int k = 0; k < setting_.centres->dimensions(); ++k) {
+void NearbyClusters<S>::sort_by_way(std::size_t base) {
+    const int dimensions = setting_.centres->dimensions();
+    const std::size_t count = found_.size(), ways = ways_.size();
+    at_.assign(ways + 1, 0);
+    for (const Candidate& candidate : found_) ++at_[candidate.way + 1];
+    for (std::size_t w = 1; w <= ways; ++w) at_[w] += at_[w - 1];
+    to_way_.resize(ways);
+    shift_.resize(ways);
+    end_of_way_.resize(ways);
+    for (std::size_t w = 0; w < ways; ++w) {
+        to_way_[w].end = at_[w + 1];
+        for (int k = 0; k < dimensions; ++k)
+            shift_[w][k] = static_cast<float>(-offset_to(ways_[w], setting_.centres->reference(base), k));
+    }
+    sorted_.resize(count);
+    kept_.resize(count + BoxQuery::kPadding);
+    near_.resize(count + 1);  // the filter writes before it decides
+    for (int k = 0; k < dimensions; ++k) {
         centre_[k].resize(count + BoxQuery::kPadding);
         half_[k].resize(count + BoxQuery::kPadding);
-        std::size_t begin = 0;
-        for (std::size_t w = 0; w < ways_.size(); begin = counts_[w++]) {
-            const auto shift = static_cast<float>(-offset_to(ways_[w], reference, k));
-            for (std::size_t c = begin; c < counts_[w]; ++c) {
-                const ClusterBox& box = setting_.neighbours->box(sorted_[c].cluster);
-                centre_[k][c] = box.centre[k] + shift;
-                half_[k][c] = box.half[k] + rounding_of(box.centre[k], box.half[k], shift);
-            }
-        }
         std::fill_n(&centre_[k][count], BoxQuery::kPadding, std::numeric_limits<float>::max());
         std::fill_n(&half_[k][count], BoxQuery::kPadding, 0.0f);
     }
-    kept_.resize(count + BoxQuery::kPadding);
+    for (const Candidate& candidate : found_) {
+        const std::size_t to = at_[candidate.way]++;
+        const ClusterBox& box = setting_.neighbours->box(candidate.cluster);
+        const std::array<float, 3>& shift = shift_[candidate.way];
+        sorted_[to] = candidate.cluster;
+        for (int k = 0; k < dimensions; ++k) {
+            centre_[k][to] = box.centre[k] + shift[k];
+            half_[k][to] = box.half[k] + rounding_of(box.centre[k], box.half[k], shift[k]);
+        }
+    }
 }
 
 template <class S>
-const std::vector<Candidate>& NearbyClusters<S>::near(std::size_t centre) {
+void NearbyClusters<S>::set_offsets(const std::array<std::int32_t, 3>& reference) {
+    if (std::exchange(has_offsets_, true) && reference == offsets_of_) return;
+    offsets_of_ = reference;
+    for (std::size_t w = 0; w < ways_.size(); ++w) {
+        for (int k = 0; k < setting_.centres->dimensions(); ++k)
+            to_way_[w].offset[k] = static_cast<S>(offset_to(ways_[w], reference, k));
+    }
+}
+
+template <class S>
+typename NearbyClusters<S>::Near NearbyClusters<S>::near(std::size_t centre) {
     const ClusterPoints<S>& centres = *setting_.centres;
     const int dimensions = centres.dimensions();
     const auto& reference = centres.reference(centre);
-    BoxQuery boxes{dimensions, {}, {}, sorted_.size(), centres.box(centre), setting_.reach};
+    BoxQuery boxes{dimensions, {}, {}, found_.size(), centres.box(centre), setting_.reach};
     for (int k = 0; k < dimensions; ++k) {
         boxes.centre[k] = centre_[k].data();
         boxes.half[k] = half_[k].data();
@@ -174,20 +191,12 @@ const std::vector<Candidate>& NearbyClusters<S>::near(std::size_t centre) {
         boxes.box.centre[k] += shift;
     }
     const std::size_t within = filter_boxes(boxes, kept_.data());
-    near_.resize(within);
-    for (std::size_t k = 0; k < within; ++k) near_[k] = sorted_[kept_[k]];
-    if (!std::exchange(has_offsets_, true) || reference != offsets_of_) {
-        offsets_of_ = reference;
-        offsets_.resize(ways_.size());
-        for (std::size_t w = 0; w < ways_.size(); ++w) {
-            for (int k = 0; k < dimensions; ++k) offsets_[w][k] = static_cast<S>(offset_to(ways_[w], reference, k));
-        }
-    }
-    const std::size_t begin = centre * kClusterSize, points = std::min(kClusterSize, centres.size() - begin);
-    near_.resize(filter_reach(
-        {dimensions, centres.record(centre), points, setting_.neighbours->record(0), offsets_.data(), setting_.reach},
-        near_.data(), within));
-    return near_;
+    set_offsets(reference);
+    const std::size_t points = std::min(kClusterSize, centres.size() - centre * kClusterSize);
+    filter_reach({dimensions, centres.record(centre), points, setting_.neighbours->record(0), sorted_.data(),
+                  kept_.data(), within, to_way_.data(), to_way_.size(), setting_.reach},
+                 near_.data(), end_of_way_.data());
+    return {near_.data(), end_of_way_.data(), to_way_.data(), to_way_.size()};
 }
 
 template class NearbyClusters<float>;

@@ -20,6 +20,7 @@ struct Extent {
     Vec3 low{}, high{};
 };
 Extent extent_of(const VectorField& x, int dimensions, std::size_t begin, std::size_t end);
+Extent join(const Extent& a, const Extent& b);
 
 // Are the points far apart: spray, or the ends of rows of a ragged body?
 bool is_wide(const Extent& extent, int dimensions, double reach);
@@ -54,13 +55,18 @@ class NearbyClusters {
     void start(const Setting& setting);
 
     // Finds those near the centre clusters from `first` on that stand together, `last` at most; returns the end.
-    std::size_t find(std::size_t first, std::size_t last);
+    // extents: of the clusters from `first` on.
+    std::size_t find(std::size_t first, std::size_t last, const Extent* extents);
 
-    // Those of them that have a point within reach of one of the centre cluster's, sorted by their way, which is
-    // Candidate::offset; valid until the next call. The centre must be one of those of find().
-    const std::vector<Candidate>& near(std::size_t centre);
-    // [m] displacement of the centre of near() on this way: from its reference point and period to the neighbours'.
-    const std::array<S, 3>& offset(std::size_t way) const { return offsets_[way]; }
+    // Those of them that have a point within reach of one of the centre cluster's, way by way; valid until the next
+    // call. The centre must be one of those of find().
+    struct Near {
+        const Index* clusters{};
+        const Index* end_of_way{};  // in clusters
+        const CandidateWay<S>* ways{};
+        std::size_t way_count{};
+    };
+    Near near(std::size_t centre);
 
   private:
     struct Way {
@@ -69,11 +75,17 @@ class NearbyClusters {
         std::array<int, 3> image{};
     };
 
-    std::size_t end_of_group(std::size_t first, std::size_t last, Extent& extent) const;
+    struct Candidate {
+        Index cluster{};
+        Index way{};
+    };
+
+    std::size_t end_of_group(std::size_t first, std::size_t last, const Extent* extents, Extent& extent) const;
     void collect(std::size_t first, std::size_t end, const Extent& extent);
-    Index way_to(std::size_t cluster, const std::array<int, 3>& image);
-    void sort_by_way();
-    void place_boxes(std::size_t base);
+    static void drop_repeated(std::vector<Candidate>& candidates);
+    Index way_to(std::size_t cluster, std::uint64_t key, const std::array<int, 3>& image);
+    void sort_by_way(std::size_t base);
+    void set_offsets(const std::array<std::int32_t, 3>& reference);
     double offset_to(const Way& way, const std::array<std::int32_t, 3>& reference, int axis) const {
         return (reference[axis] - way.reference[axis]) * setting_.centres->reference_step() -
                way.image[axis] * setting_.period[axis];
@@ -82,15 +94,17 @@ class NearbyClusters {
     Setting setting_;
     std::vector<Index> stamp_;  // of each cluster of neighbours: the last look at it
     Index look_{};
-    std::vector<Candidate> found_, sorted_, near_;
+    std::vector<Candidate> found_;
     std::vector<Way> ways_;
-    Index way_{};                                        // the last one taken
+    std::vector<Index> at_;                              // of each way: where its next candidate goes
     std::array<std::int32_t, 3> base_{}, offsets_of_{};  // reference points
     bool has_offsets_{false};
-    std::vector<std::array<S, 3>> offsets_;  // of each way, from offsets_of_
-    std::vector<Index> counts_;
+    std::vector<CandidateWay<S>> to_way_;               // of ways_, from offsets_of_
+    std::vector<std::array<float, 3>> shift_;           // [m] of ways_, to base_
+    AlignedArray<Index> sorted_;                        // clusters, way by way
     std::array<AlignedArray<float>, 3> centre_, half_;  // of the boxes of sorted_, relative to base_
-    AlignedArray<Index> kept_;
+    AlignedArray<Index> kept_, near_;
+    std::vector<Index> end_of_way_;
 };
 
 extern template class NearbyClusters<float>;

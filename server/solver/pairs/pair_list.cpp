@@ -46,8 +46,10 @@ void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, c
     blocks_.resize(count);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
     const double reach = (options.support + options.skin) * (1.0 + kRounding);
-    for (Scratch& scratch : scratch_)
+    for (Scratch& scratch : scratch_) {
+        scratch.stamp.clear();
         scratch.clusters.start({&centres, &x, &neighbours, &order, reach, options.period});
+    }
     parallel_for(count, 4, [&](std::size_t first, std::size_t last, int thread) {
         for (std::size_t b = first; b < last; ++b)
             build_block(b, centres, x, order, options, scratch_[static_cast<std::size_t>(thread)]);
@@ -62,20 +64,20 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     scratch.groups.clear();
     scratch.entries.clear();
     const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
+    for (std::size_t c = first; c < last; ++c) {
+        const std::size_t begin = c * kClusterSize, end = std::min(begin + kClusterSize, centres.size());
+        scratch.extents[c - first] = extent_of(x, centres.dimensions(), begin, end);
+    }
     list_nearby(block, x, centres.dimensions(), first * kClusterSize, std::min(last * kClusterSize, centres.size()),
                 order, options, scratch);
     block.first_group.fill(0);
     bool needs_visibility = false;
     for (std::size_t c = first; c < last && !block.nearby.empty();) {
-        const std::size_t end = scratch.clusters.find(c, last);
+        const std::size_t end = scratch.clusters.find(c, last, &scratch.extents[c - first]);
         for (; c < end; ++c) {
             block.first_group[c - first] = static_cast<Index>(scratch.groups.size());
-            if (options.visibility != nullptr) {
-                const std::size_t begin = c * kClusterSize;
-                const Extent extent =
-                    extent_of(x, centres.dimensions(), begin, std::min(begin + kClusterSize, centres.size()));
-                needs_visibility |= options.visibility->is_needed_near(extent.low);
-            }
+            if (options.visibility != nullptr)
+                needs_visibility |= options.visibility->is_needed_near(scratch.extents[c - first].low);
             list_near(scratch, c);
         }
     }
@@ -90,17 +92,15 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
 // Entries on one way are a group.
 template <class S>
 void PairList<S>::list_near(Scratch& scratch, std::size_t centre) {
-    constexpr Index kNone = ~Index{0};
-    Index way = kNone;
-    for (const Candidate& candidate : scratch.clusters.near(centre)) {
-        const auto at = static_cast<Index>(scratch.entries.size());
-        if (candidate.offset != way) {
-            way = candidate.offset;
-            scratch.groups.push_back({at, at, scratch.clusters.offset(way)});
-        }
-        scratch.entries.push_back(candidate.cluster);
-        scratch.groups.back().end = at + 1;
+    const auto near = scratch.clusters.near(centre);
+    const auto base = static_cast<Index>(scratch.entries.size());
+    Index begin = 0;
+    for (std::size_t w = 0; w < near.way_count; ++w) {
+        const Index end = near.end_of_way[w];
+        if (end > begin) scratch.groups.push_back({base + begin, base + end, near.ways[w].offset});
+        begin = end;
     }
+    scratch.entries.insert(scratch.entries.end(), near.clusters, near.clusters + begin);
 }
 
 template <class S>
@@ -174,14 +174,16 @@ void PairList<S>::list_nearby(PairBlock<S>& block, const VectorField& x, int dim
     constexpr Index kSlots = kMotionBlock * kClusterSize;
     const double reach = (options.support + skin_ + far_skin_) * (1.0 + kRounding);
     scratch.nearby.clear();
-    const Extent extent = extent_of(x, dimensions, begin, end);
+    scratch.stamp.resize((order.clusters() + kMotionBlock - 1) / kMotionBlock, 0);
+    const std::size_t clusters = (end - begin + kClusterSize - 1) / kClusterSize;
+    Extent extent = scratch.extents[0];
+    for (std::size_t c = 1; c < clusters; ++c) extent = join(extent, scratch.extents[c]);
+    const auto look = static_cast<Index>(begin / kSlots + 1);
     for_each_run_near(order, x, dimensions, begin, end, extent, reach, [&](const SlotRun& run) {
         for (Index j = run.begin / kSlots; j <= (run.end - 1) / kSlots; ++j) {
-            if (scratch.nearby.empty() || scratch.nearby.back() != j) scratch.nearby.push_back(j);
+            if (std::exchange(scratch.stamp[j], look) != look) scratch.nearby.push_back(j);
         }
     });
-    std::sort(scratch.nearby.begin(), scratch.nearby.end());
-    scratch.nearby.erase(std::unique(scratch.nearby.begin(), scratch.nearby.end()), scratch.nearby.end());
     block.nearby.assign(scratch.nearby.begin(), scratch.nearby.end());
 }
 

@@ -73,6 +73,8 @@ class PairList {
   private:
     struct Scratch {
         NearbyClusters<S> clusters;
+        std::array<Extent, kMotionBlock> extents;  // of the block's clusters
+        std::vector<Index> stamp;                  // of each block of neighbours: the last block that looked at it
         std::vector<std::array<S, 3>> offsets;
         std::vector<PairGroup<S>> groups;
         std::vector<Index> entries, nearby;

@@ -145,9 +145,13 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
             for (int k = 0; k < D; ++k) x_i[k] = spread_four<S>(centres.record(c) + 4 * k + part);
             FieldsOf<T, Pass::kCentreFields> self;
             for (std::size_t f = 0; f < Pass::kCentreFields; ++f) {
-                std::array<double, kClusterSize> four{};
-                for (std::size_t l = 0; l < points; ++l) four[l] = centre_fields[f][begin + l];
-                self.field[f] = spread_four<S>(&four[part]);
+                if (points == kClusterSize) {
+                    self.field[f] = spread_four<S>(centre_fields[f] + begin + part);
+                } else {
+                    std::array<double, kClusterSize> four{};
+                    for (std::size_t l = 0; l < points; ++l) four[l] = centre_fields[f][begin + l];
+                    self.field[f] = spread_four<S>(&four[part]);
+                }
             }
             LaneSums sums{};
             if (block.seen.empty())
@@ -165,11 +169,14 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
                                                                        walls, sums);
                 }
             }
-            std::array<T, kSums> fours;
-            __builtin_memcpy(static_cast<void*>(&fours), &sums, sizeof fours);
-            for (T& four : fours) sum_fours<S>(four);
+            // One by one: all at once would be copied word by word and read back before it has arrived.
             alignas(64) S lanes[kSums][T::kCount];
-            __builtin_memcpy(lanes, &fours, sizeof lanes);
+            for (std::size_t s = 0; s < kSums; ++s) {
+                T four;
+                __builtin_memcpy(&four.v, reinterpret_cast<const char*>(&sums) + s * sizeof(T), sizeof four.v);
+                sum_fours<S>(four);
+                __builtin_memcpy(lanes[s], &four.v, sizeof four.v);
+            }
             for (std::size_t l = 0; l < kAtOnce && part + l < points; ++l) {
                 std::array<double, kSums> total;
                 for (std::size_t s = 0; s < kSums; ++s) total[s] = static_cast<double>(lanes[s][4 * l]);

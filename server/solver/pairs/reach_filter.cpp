@@ -10,7 +10,7 @@ HWY_BEFORE_NAMESPACE();
 namespace headrace::solver::HWY_NAMESPACE {
 
 template <class S, int D>
-std::size_t filter(const ReachQuery<S>& query, Candidate* candidates, std::size_t count) {
+void filter(const ReachQuery<S>& query, Index* found, Index* end_of_way) {
     using T = PairLanes<S>;
     constexpr std::size_t kAtOnce = T::kCount / 4, kParts = 4 / kAtOnce;
     // Points that are not there are put where the first is.
@@ -21,23 +21,29 @@ std::size_t filter(const ReachQuery<S>& query, Candidate* candidates, std::size_
         for (std::size_t part = 0; part < kParts; ++part) x_i[part][k] = spread_four<S>(&four[part * kAtOnce]);
     }
     const T reach2(query.reach * query.reach);
-    std::size_t kept = 0;
-    for (std::size_t c = 0; c < count; ++c) {
-        const S* record = query.records + candidates[c].cluster * std::size_t{4 * (D + 1)};
-        const std::array<S, 3>& offset = query.offsets[candidates[c].offset];
-        bool is_near = false;
-        for (std::size_t part = 0; part < kParts; ++part) {
-            T r2(0.0);
-            for (int k = 0; k < D; ++k) {
-                const T x_ij = x_i[part][k] + (T(offset[k]) - load_four<S>(record + 4 * k));
-                r2 += x_ij * x_ij;
+    std::size_t written = 0, c = 0;
+    for (std::size_t w = 0; w < query.way_count; ++w) {
+        const CandidateWay<S>& way = query.ways[w];
+        std::array<std::array<T, D>, kParts> x = x_i;
+        for (std::size_t part = 0; part < kParts; ++part)
+            for (int k = 0; k < D; ++k) x[part][k] += T(static_cast<double>(way.offset[k]));
+        for (; c < query.count && query.kept[c] < way.end; ++c) {
+            const Index cluster = query.clusters[query.kept[c]];
+            const S* record = query.records + cluster * std::size_t{4 * (D + 1)};
+            bool is_near = false;
+            for (std::size_t part = 0; part < kParts; ++part) {
+                T r2(0.0);
+                for (int k = 0; k < D; ++k) {
+                    const T x_ij = x[part][k] - load_four<S>(record + 4 * k);
+                    r2 += x_ij * x_ij;
+                }
+                is_near |= is_any_below<S>(r2, reach2);
             }
-            is_near |= is_any_below<S>(r2, reach2);
+            found[written] = cluster;
+            written += is_near;
         }
-        candidates[kept] = candidates[c];
-        kept += is_near;
+        end_of_way[w] = static_cast<Index>(written);
     }
-    return kept;
 }
 
 // Longer than the reach by this share: places are rounded to float.
@@ -77,13 +83,11 @@ std::size_t filter_boxes_of(const BoxQuery& query, Index* kept) {
     return query.dimensions == 2 ? boxes_within<2>(query, kept) : boxes_within<3>(query, kept);
 }
 
-std::size_t filter_float(const ReachQuery<float>& query, Candidate* candidates, std::size_t count) {
-    return query.dimensions == 2 ? filter<float, 2>(query, candidates, count)
-                                 : filter<float, 3>(query, candidates, count);
+void filter_float(const ReachQuery<float>& query, Index* found, Index* end_of_way) {
+    query.dimensions == 2 ? filter<float, 2>(query, found, end_of_way) : filter<float, 3>(query, found, end_of_way);
 }
-std::size_t filter_double(const ReachQuery<double>& query, Candidate* candidates, std::size_t count) {
-    return query.dimensions == 2 ? filter<double, 2>(query, candidates, count)
-                                 : filter<double, 3>(query, candidates, count);
+void filter_double(const ReachQuery<double>& query, Index* found, Index* end_of_way) {
+    query.dimensions == 2 ? filter<double, 2>(query, found, end_of_way) : filter<double, 3>(query, found, end_of_way);
 }
 
 }  // namespace headrace::solver::HWY_NAMESPACE
@@ -100,11 +104,11 @@ std::size_t filter_boxes(const BoxQuery& query, Index* kept) {
     return HWY_DYNAMIC_DISPATCH(filter_boxes_of)(query, kept);
 }
 
-std::size_t filter_reach(const ReachQuery<float>& query, Candidate* candidates, std::size_t count) {
-    return HWY_DYNAMIC_DISPATCH(filter_float)(query, candidates, count);
+void filter_reach(const ReachQuery<float>& query, Index* found, Index* end_of_way) {
+    HWY_DYNAMIC_DISPATCH(filter_float)(query, found, end_of_way);
 }
-std::size_t filter_reach(const ReachQuery<double>& query, Candidate* candidates, std::size_t count) {
-    return HWY_DYNAMIC_DISPATCH(filter_double)(query, candidates, count);
+void filter_reach(const ReachQuery<double>& query, Index* found, Index* end_of_way) {
+    HWY_DYNAMIC_DISPATCH(filter_double)(query, found, end_of_way);
 }
 
 }  // namespace headrace::solver

@@ -10,20 +10,25 @@
 
 namespace headrace::solver {
 
-// A cluster that may be near, and which of the centre's offsets leads to it.
-struct Candidate {
-    Index cluster{};
-    Index offset{};
+// Candidates [.., end) that one displacement leads to: of the centre, to the neighbours' reference point and period.
+template <class S>
+struct CandidateWay {
+    std::size_t end{};
+    std::array<S, 3> offset{};  // [m]
 };
 
 template <class S>
 struct ReachQuery {
     int dimensions{};
-    const S* centre{};                  // record of the centre's cluster
-    std::size_t centre_points{};        // points in it: the others are ignored
-    const S* records{};                 // of the neighbours' clusters
-    const std::array<S, 3>* offsets{};  // [m]
-    double reach{};                     // [m]
+    const S* centre{};              // record of the centre's cluster
+    std::size_t centre_points{};    // points in it: the others are ignored
+    const S* records{};             // of the neighbours' clusters
+    const Index* clusters{};        // candidates, way by way
+    const Index* kept{};            // ascending numbers of those candidates that are looked at
+    std::size_t count{};            // of them
+    const CandidateWay<S>* ways{};  // ascending
+    std::size_t way_count{};
+    double reach{};  // [m]
 };
 
 // Boxes side by side, [axis][box]. Space for kPadding more is behind them.
@@ -40,9 +45,9 @@ struct BoxQuery {
 // box and loses none. kept: with space for count + kPadding.
 std::size_t filter_boxes(const BoxQuery& query, Index* kept);
 
-// Moves the candidates that have a point within reach of one of the centre's to the front, in their order; returns
-// their number.
-std::size_t filter_reach(const ReachQuery<float>& query, Candidate* candidates, std::size_t count);
-std::size_t filter_reach(const ReachQuery<double>& query, Candidate* candidates, std::size_t count);
+// Writes the clusters of those candidates that have a point within reach of one of the centre's, in their order, and
+// how many had been written at the end of each way. found: with space for count.
+void filter_reach(const ReachQuery<float>& query, Index* found, Index* end_of_way);
+void filter_reach(const ReachQuery<double>& query, Index* found, Index* end_of_way);
 
 }  // namespace headrace::solver

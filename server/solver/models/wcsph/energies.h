@@ -14,6 +14,7 @@
 // Nothing is computed unless the energies are followed, and following them changes no bit of the run.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "server/solver/energy_budget.h"
@@ -64,6 +65,9 @@ class EnergyAccount {
     void note_tension(const VectorField& a, int dimensions);  // with surface tension, too
     // Accelerations without and with artificial viscosity.
     void note_without_artificial(const VectorField& a) { artificial_ = a; }
+    void note_no_artificial() {
+        for (std::vector<double>& component : artificial_) std::fill(component.begin(), component.end(), 0.0);
+    }
     void note_with_artificial(const VectorField& a, int dimensions);
     // Of moving walls [W].
     void note_wall_pressure(double power) { wall_pressure_power_ = power; }

@@ -74,6 +74,7 @@ void Wcsph::relax(Particles& particles, const Surroundings& surroundings, const 
 StepReport Wcsph::initialise(Particles& particles, const Surroundings& surroundings) {
     prepare(particles, surroundings);
     resize_state(particles.size());
+    artificial_weight_ = 1;
     const double volume = std::pow(spacing_, dimensions_);
     for (std::size_t i = 0; i < particles.size(); ++i) {
         state_.delta[i] = eos_.deviation(particles.p[i]);

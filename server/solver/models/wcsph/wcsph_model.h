@@ -124,7 +124,8 @@ class Wcsph final : public Model {
     PassData data(Particles& particles) { return {particles, state_, walls_.particles(), walls_.state()}; }
 
     WcsphView view(const Particles& particles) const { return {particles, state_, walls_.particles(), walls_.state()}; }
-    PressureOptions pressure_options() const;
+    PressureOptions pressure_options() const;  // of one acoustic step
+    int artificial_weight(int k) const;
     ViscosityOptions viscosity_options() const { return {p_.viscosity, 0.25 * spacing_}; }
     TensionOptions tension_options() const { return {p_.surface_tension, flat_surface_, kThesisThreshold / support_}; }
     TermOptions term_options() const;
@@ -213,6 +214,7 @@ class Wcsph final : public Model {
     std::uint64_t separated_{};  // coincident pairs, so far
     std::uint64_t sorts_{};      // so far
     StepChoice next_;
+    int artificial_weight_{1};  // of the last pressure force
     std::array<double, kStageCount> seconds_{};
     std::vector<double> scratch_;
     std::vector<Index> scratch_id_;
