@@ -13,6 +13,7 @@ using Index = std::uint32_t;
 
 // One array per component: vector_field[axis][i]. In 2D the arrays of axis 2 are empty.
 using VectorField = std::array<std::vector<double>, 3>;
+using NarrowField = std::array<std::vector<float>, 3>;  // the same in single precision
 
 struct Particles {
     int dimensions{3};  // 2 or 3

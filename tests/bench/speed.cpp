@@ -8,6 +8,7 @@
 
 #include "tests/bench/speed_cases.h"
 #include "tests/bench/speed_compare.h"
+#include "tests/bench/speed_growth.h"
 
 namespace headrace::bench {
 
@@ -15,11 +16,13 @@ namespace {
 
 const std::vector<std::string> kCases{
     "plain_3d", "plain_2d", "wcsph_dam_break_3d", "wcsph_dam_break_2d", "thesis_dam_break_3d", "thesis_dam_break_2d"};
+const std::vector<std::string> kOnRequest{"growth_plain_3d", "growth_wcsph_3d"};  // gigabytes, minutes
 constexpr std::size_t kLarge = 300000;  // from here on only the clusters, and fewer steps
 
 struct Options {
     std::vector<std::string> cases{kCases};
     std::vector<std::size_t> particles{10000, 64000, 1000000};
+    std::vector<std::size_t> growth{100000, 1000000, 10000000};
     std::vector<double> supports{2.4, 3.0, 4.0};
     std::vector<std::string> strategies{"clusters", "buffer", "broadcast"};
     SpeedPlan plan;
@@ -30,9 +33,12 @@ struct Options {
 };
 
 void define_options(CLI::App& app, Options& options) {
-    app.add_option("--case", options.cases, "Cases")
+    std::vector<std::string> all = kCases;
+    all.insert(all.end(), kOnRequest.begin(), kOnRequest.end());
+    app.add_option("--case", options.cases, "Cases")->delimiter(',')->check(CLI::IsMember(all))->capture_default_str();
+    app.add_option("--growth", options.growth, "Particles of the growth cases, about")
         ->delimiter(',')
-        ->check(CLI::IsMember(kCases))
+        ->check(CLI::Range(4000, 100000000))
         ->capture_default_str();
     app.add_option("--particles", options.particles, "Particles of the plain cases, about")
         ->delimiter(',')
@@ -92,6 +98,8 @@ proto::Status run_plain(int dimensions, const Options& options, const SpeedSink&
 }
 
 proto::Status run_case(const std::string& name, const Options& options, const SpeedSink& sink) {
+    if (name == "growth_plain_3d") return time_plain_growth(options.growth, options.plan, sink);
+    if (name == "growth_wcsph_3d") return time_wcsph_growth(options.growth, options.plan, sink);
     const int dimensions = name.ends_with("2d") ? 2 : 3;
     if (name.starts_with("plain")) return run_plain(dimensions, options, sink);
     return time_dam_break(name.substr(0, name.find('_')), dimensions, options.plan, sink);
@@ -103,7 +111,8 @@ int run_speed(int argc, char** argv) {
     CLI::App app{
         "Times the pair engine and whole models in developed flow. plain_*: continuity, pressure, artificial\n"
         "viscosity and density diffusion in one loop, a periodic vortex, by several strategies; *_dam_break_*: a\n"
-        "model at its defaults, t = 0.2 to 0.4 s. Beside each figure stands what fused multiply-adds the machine "
+        "model at its defaults, t = 0.2 to 0.4 s; growth_* (on request): time and peak memory\n"
+        "per particle from 10^5 to 10^7. Beside each figure stands what fused multiply-adds the machine "
         "gave.\n"
         "Writes speed.csv; lines of other cases stay."};
     Options options;

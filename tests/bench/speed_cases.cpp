@@ -1,18 +1,16 @@
 #include "tests/bench/speed_cases.h"
 
-#include <malloc.h>
 #include <omp.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <numbers>
 
 #include "server/scene/run.h"
 #include "server/solver/pairs/instruction_sets.h"
 #include "tests/bench/neighbour_count.h"
+#include "tests/bench/peak_memory.h"
 #include "tests/bench/speed_clock.h"
 
 namespace headrace::bench {
@@ -124,29 +122,6 @@ proto::Status hold_contests(const PlainFluid& developed, double bytes, SpeedRow 
 
 // ---- dam breaks -----------------------------------------------------------------------------------------------------
 
-proto::SceneDesc make_dam_break(const std::string& model, int dimensions) {
-    const double width = dimensions == 3 ? 0.15 : 0.0;  // [m]
-    proto::SceneDesc scene;
-    scene.name = "dam_break";
-    scene.dimensions = dimensions;
-    scene.model = model;
-    scene.spacing = dimensions == 3 ? 0.0075 : 0.003;
-    scene.parameters["gravity"] = proto::Vec3{0.0, -9.81, 0.0};
-    const double margin = dimensions == 3 ? 0.1 : 0.0;
-    scene.domain = {{-0.1, -0.1, -margin}, {1.71, 0.7, width + margin}, {}};
-    proto::FluidDesc column;
-    column.name = "column";
-    column.shape.emplace<proto::BoxDesc>(proto::BoxDesc{{0.0, 0.0, 0.0}, {0.6, 0.3, width}});
-    column.hydrostatic = true;
-    scene.fluids.push_back(column);
-    proto::ObjectDesc tank;
-    tank.name = "tank";
-    tank.role = proto::ObjectRole::container;
-    tank.shape.emplace<proto::BoxDesc>(proto::BoxDesc{{0.0, 0.0, 0.0}, {1.61, 0.6, width}});
-    scene.objects.push_back(tank);
-    return scene;
-}
-
 double number_of(const solver::Model& model, const std::string& name, double otherwise) {
     const solver::ParameterMap parameters = model.parameters();
     const auto found = parameters.find(name);
@@ -227,17 +202,32 @@ SpeedRow summarise(SpeedRow row, int threads, const DamBreakTotals& totals) {
 
 }  // namespace
 
-double resident_bytes() {
-    std::ifstream statm("/proc/self/statm");
-    double all{}, resident{};
-    statm >> all >> resident;
-    return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+proto::SceneDesc make_dam_break(const std::string& model, int dimensions) {
+    const double width = dimensions == 3 ? 0.15 : 0.0;  // [m]
+    proto::SceneDesc scene;
+    scene.name = "dam_break";
+    scene.dimensions = dimensions;
+    scene.model = model;
+    scene.spacing = dimensions == 3 ? 0.0075 : 0.003;
+    scene.parameters["gravity"] = proto::Vec3{0.0, -9.81, 0.0};
+    const double margin = dimensions == 3 ? 0.1 : 0.0;
+    scene.domain = {{-0.1, -0.1, -margin}, {1.71, 0.7, width + margin}, {}};
+    proto::FluidDesc column;
+    column.name = "column";
+    column.shape.emplace<proto::BoxDesc>(proto::BoxDesc{{0.0, 0.0, 0.0}, {0.6, 0.3, width}});
+    column.hydrostatic = true;
+    scene.fluids.push_back(column);
+    proto::ObjectDesc tank;
+    tank.name = "tank";
+    tank.role = proto::ObjectRole::container;
+    tank.shape.emplace<proto::BoxDesc>(proto::BoxDesc{{0.0, 0.0, 0.0}, {1.61, 0.6, width}});
+    scene.objects.push_back(tank);
+    return scene;
 }
 
 proto::Status time_plain(const PlainCase& one, const SpeedPlan& plan, const SpeedSink& sink) {
     omp_set_num_threads(*std::max_element(plan.threads.begin(), plan.threads.end()));
-    malloc_trim(0);
-    const double before = resident_bytes();
+    const PeakMemory memory;
     PlainFluid developed = make_developed_flow(one, plan.warmup);
     if (!is_sound(developed)) return faulted("the plain fluid broke before it was timed");
     double bytes = 0.0;
@@ -245,7 +235,7 @@ proto::Status time_plain(const PlainCase& one, const SpeedPlan& plan, const Spee
         const auto sums = make_plain_sums(PairStrategy::clusters, one.dimensions);
         StageSeconds seconds;
         sums->compute(developed, seconds);
-        bytes = (resident_bytes() - before) / static_cast<double>(developed.size());
+        bytes = memory.growth() / static_cast<double>(developed.size());
     }
     const SpeedRow row = describe(one, developed);
     const std::vector<std::string> sets = solver::instruction_sets();
@@ -263,8 +253,7 @@ proto::Status time_plain(const PlainCase& one, const SpeedPlan& plan, const Spee
 proto::Status time_dam_break(const std::string& model, int dimensions, const SpeedPlan& plan, const SpeedSink& sink) {
     constexpr double kBegin = 0.2, kEnd = 0.4;  // [s]
     omp_set_num_threads(*std::max_element(plan.threads.begin(), plan.threads.end()));
-    malloc_trim(0);
-    const double memory_before = resident_bytes();
+    const PeakMemory memory;
     auto built = scene::Run::build(make_dam_break(model, dimensions));
     if (!built) return built.error();
     scene::Run& run = **built;
@@ -278,9 +267,9 @@ proto::Status time_dam_break(const std::string& model, int dimensions, const Spe
     row.dimensions = dimensions;
     row.particles = run.particles().size();
     row.support_over_dp = run.model().support_radius() / run.scene().spacing;
+    row.bytes_per_particle = memory.growth() / static_cast<double>(row.particles);
     row.neighbours = compute_mean_neighbours(run.particles(), run.model().support_radius());
     row.isa = solver::instruction_set();
-    row.bytes_per_particle = (resident_bytes() - memory_before) / static_cast<double>(row.particles);
 
     std::vector<DamBreakTotals> totals(plan.threads.size());
     const double end = plan.is_quick ? kBegin + 0.02 : kEnd;

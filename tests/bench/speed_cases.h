@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/result.h"
+#include "proto/scene_desc.h"
 #include "tests/bench/speed_report.h"
 #include "tests/bench/speed_sums.h"
 
@@ -35,8 +36,6 @@ proto::Status time_plain(const PlainCase& one, const SpeedPlan& plan, const Spee
 // Water, container box, t = 0.2 to 0.4 s, at the model's defaults: a column 0.6 m long and 0.3 m high in a tank of
 // 1.61 m by 0.6 m (in 3D 0.15 m wide), as Lobovsky et al. 2014. Windows of the thread counts take turns.
 proto::Status time_dam_break(const std::string& model, int dimensions, const SpeedPlan& plan, const SpeedSink& sink);
-
-// [bytes] that the process holds in memory.
-double resident_bytes();
+proto::SceneDesc make_dam_break(const std::string& model, int dimensions);
 
 }  // namespace headrace::bench

@@ -38,7 +38,7 @@ void for_blocks(const PlainFluid& fluid, Body&& body) {
 
 }  // namespace
 
-PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp) {
+PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp, int waves) {
     PlainFluid fluid;
     fluid.dimensions = dimensions;
     fluid.spacing = kSpacing;
@@ -67,7 +67,7 @@ PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp) {
             const auto place = static_cast<double>(rest % static_cast<std::size_t>(edge));
             x[k] = fluid.x[k][i] = (place + 0.5 + uniform(random)) * kSpacing;
         }
-        const solver::Vec3 v = vortex(dimensions, x, 2.0 * std::numbers::pi / length, kMach * kSoundSpeed);
+        const solver::Vec3 v = vortex(dimensions, x, 2.0 * std::numbers::pi * waves / length, kMach * kSoundSpeed);
         for (int k = 0; k < dimensions; ++k) fluid.v[k][i] = v[k];
     }
     return fluid;

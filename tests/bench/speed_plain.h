@@ -35,8 +35,8 @@ struct PlainFluid {
 };
 
 // A lattice of edge^D points, jittered, in Taylor and Green's vortex (3D: Arnold, Beltrami and Childress's) at a Mach
-// number of 0.1. Its mean pressure keeps it from tearing.
-PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp);
+// number of 0.1. Its mean pressure keeps it from tearing. waves: of the vortex along each edge.
+PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp, int waves = 1);
 
 // The rates are known for the first time: starts v_half and delta_half.
 void start_plain_fluid(PlainFluid& fluid);

@@ -19,8 +19,9 @@ Vec3 position(const WallParticles& particles, std::size_t k) {
     return x;
 }
 
-void set(VectorField& field, int dimensions, std::size_t k, const Vec3& value) {
-    for (int axis = 0; axis < dimensions; ++axis) field[axis][k] = value[axis];
+template <class T>
+void set(std::array<std::vector<T>, 3>& field, int dimensions, std::size_t k, const Vec3& value) {
+    for (int axis = 0; axis < dimensions; ++axis) field[axis][k] = static_cast<T>(value[axis]);
 }
 
 // b as the image nearest to a.
@@ -69,6 +70,13 @@ void Walls::rebuild(std::span<const CollisionObject> objects, const Domain& doma
     }
     update_places();
     collect();
+    if (!has_moving() && !has_thin()) forget_sampling();
+}
+
+void Walls::forget_sampling() {
+    dummies_ = {};
+    place_ = {};
+    active_ = {};
 }
 
 bool Walls::move_to(double t) {
@@ -167,11 +175,15 @@ void Walls::collect() {
     }
     const std::size_t count = particles_.id.size();
     particles_.object.resize(count);
-    particles_.sheet.resize(count);
+    particles_.sheet.resize(has_thin() ? count : 0);
     particles_.V.resize(count);
     particles_.depth.resize(count);
-    for (VectorField* field : {&particles_.x, &particles_.v, &particles_.a, &particles_.n}) {
-        for (int axis = 0; axis < 3; ++axis) (*field)[axis].resize(axis < dimensions_ ? count : 0);
+    const std::size_t moving = has_moving() ? count : 0;
+    for (int axis = 0; axis < dimensions_; ++axis) {
+        particles_.x[axis].resize(count);
+        particles_.n[axis].resize(count);
+        particles_.v[axis].resize(moving);
+        particles_.a[axis].resize(moving);
     }
     parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t slot = begin; slot < end; ++slot) place(slot, dummies_[particles_.id[slot]]);
@@ -181,13 +193,14 @@ void Walls::collect() {
 void Walls::place(std::size_t slot, const Dummy& dummy) {
     const WallObject& own = objects_[dummy.object];
     particles_.object[slot] = dummy.object;
-    particles_.sheet[slot] = dummy.sheet;
+    if (!particles_.sheet.empty()) particles_.sheet[slot] = dummy.sheet;
     particles_.V[slot] = dummy.V;
-    particles_.depth[slot] = dummy.depth;
+    particles_.depth[slot] = static_cast<float>(dummy.depth);
     const Vec3 normal = own.turn(dummy.n);
-    const Vec3 image = own.place(dummy);
     set(particles_.x, dimensions_, slot, place_[particles_.id[slot]]);
     set(particles_.n, dimensions_, slot, normal);
+    if (particles_.v[0].empty()) return;
+    const Vec3 image = own.place(dummy);
     set(particles_.v, dimensions_, slot, own.velocity(image, normal));
     set(particles_.a, dimensions_, slot, own.acceleration(image));
 }
@@ -234,7 +247,7 @@ Vec3 Walls::velocity(std::size_t object, const Vec3& x) const {
 }
 
 bool Walls::sees(const Vec3& x, std::size_t k) const {
-    if (particles_.sheet[k] == 0) return true;
+    if (particles_.sheet.empty() || particles_.sheet[k] == 0) return true;
     const std::size_t object = particles_.object[k];
     const WallObject& own = objects_[object];
     const Dummy& dummy = dummies_[particles_.id[k]];

@@ -31,13 +31,14 @@ struct WallParticles {
     int dimensions{3};
     std::vector<Index> id;      // position in the order they were made; stable while objects_version stays
     std::vector<Index> object;  // index in Surroundings::objects
-    std::vector<Index> sheet;   // 0: seen from everywhere; else a thin panel's side, see Walls::sees
-    VectorField x;              // [m] now
-    VectorField v;              // [m/s] of the wall there, surface velocity included
-    VectorField a;              // [m/s^2] of the wall there
-    VectorField n;              // [1] unit normal of the nearest surface, into the fluid
-    std::vector<double> V;      // [m^3] volume (2D: m^2)
-    std::vector<double> depth;  // [m] below the object's nearest surface; in a sheet: behind its own face
+    std::vector<Index>
+        sheet;              // 0: seen from everywhere; else a thin panel's side, see Walls::sees. Empty without panels
+    VectorField x;          // [m] now
+    VectorField v;          // [m/s] of the wall there, surface velocity included; empty while no object moves
+    VectorField a;          // [m/s^2] of the wall there; likewise
+    NarrowField n;          // [1] unit normal of the nearest surface, into the fluid
+    std::vector<double> V;  // [m^3] volume (2D: m^2)
+    std::vector<float> depth;  // [m] below the object's nearest surface; in a sheet: behind its own face
 
     std::size_t size() const { return id.size(); }
 };
@@ -92,6 +93,7 @@ class Walls final : public Visibility {
     void collect();
     void refresh_moving();
     void place(std::size_t slot, const Dummy& dummy);
+    void forget_sampling();
     const ThinPanel* find_panel(std::size_t object) const;
 
     int dimensions_;
@@ -101,11 +103,12 @@ class Walls final : public Visibility {
     std::vector<WallObject> objects_;
     std::vector<Panel> panels_;          // in the objects' order
     std::vector<std::size_t> panel_of_;  // of each object: index of its panel, or kNoPanel
-    std::vector<Dummy> dummies_;         // all, by id
-    std::vector<Vec3> place_;            // [m] of each dummy in the domain
-    std::vector<char> active_;           // of each dummy
-    std::vector<Index> changeable_;      // ids
-    WallParticles particles_;            // the active ones
+    // By id, unless nothing can change: then particles_ tell all.
+    std::vector<Dummy> dummies_;     // all
+    std::vector<Vec3> place_;        // [m] of each dummy in the domain
+    std::vector<char> active_;       // of each dummy
+    std::vector<Index> changeable_;  // ids
+    WallParticles particles_;        // the active ones
     std::uint64_t version_{};
 };
 

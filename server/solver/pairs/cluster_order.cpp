@@ -16,7 +16,8 @@ void ClusterOrder::build(const VectorField& x, const std::vector<Index>& id, int
                          const Domain& domain) {
     dimensions_ = dimensions;
     divide(spacing, domain);
-    order_.resize(id.size());
+    count_ = id.size();
+    order_.resize(count_);
     bin_of_slot_.clear();
     measure(x, id.size());
     if (is_dense_) {
@@ -106,29 +107,30 @@ void ClusterOrder::measure(const VectorField& x, std::size_t count) {
     start_.assign(layer_ * static_cast<std::size_t>(width[0]) + 1, 0);
 }
 
-// Counting sort. Ranks within a bin are handed out in any order, then ids decide.
+// Counting sort. Places within a bin are handed out in any order, then ids decide.
 void ClusterOrder::order_dense(const VectorField& x, const std::vector<Index>& id) {
     const std::size_t count = id.size();
-    number_.resize(count);
-    rank_.resize(count);
+    std::vector<Index> numbers(count);  // of each point's bin
     parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t number = number_of(find_bin(x, i));
-            number_[i] = static_cast<Index>(number);
-            Index rank;
-#pragma omp atomic capture
-            rank = start_[number]++;
-            rank_[i] = rank;
+            numbers[i] = static_cast<Index>(number);
+#pragma omp atomic
+            ++start_[number];
         }
     });
     Index sum = 0;
     for (Index& start : start_) {
-        const Index in_bin = start;
-        start = sum;
-        sum += in_bin;
+        sum += start;
+        start = sum;  // the end, from which places are handed out
     }
     parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) order_[start_[number_[i]] + rank_[i]] = static_cast<Index>(i);
+        for (std::size_t i = begin; i < end; ++i) {
+            Index place;
+#pragma omp atomic capture
+            place = --start_[numbers[i]];
+            order_[place] = static_cast<Index>(i);
+        }
     });
     parallel_for(start_.size() - 1, 4 * kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         const auto by_id = [&](Index a, Index b) { return id[a] < id[b]; };

@@ -41,7 +41,10 @@ class ClusterOrder {
     template <class T>
     void permute(std::vector<T>& values, std::vector<T>& scratch) const;
 
-    std::size_t size() const { return order_.size(); }
+    // After the last permute(): gives the memory back that only permute() needs.
+    void forget_moves() { order_ = {}; }
+
+    std::size_t size() const { return count_; }
     std::size_t clusters() const { return (size() + kClusterSize - 1) / kClusterSize; }
 
     // visit(run) for runs of slots that together hold all points within `reach` of the box [low, high], periodic images
@@ -81,17 +84,16 @@ class ClusterOrder {
     Bin lowest_{}, highest_{};  // of the occupied bins
     bool is_dense_{true};
     std::size_t row_{}, layer_{};   // bins from one row, one layer to the next
+    std::size_t count_{};           // points
     std::vector<Index> start_;      // dense: [bins + 1]
-    std::vector<Index> number_;     // dense: [N] bin of each point
-    std::vector<Index> rank_;       // dense: [N] place within its bin before ordering by id
     std::vector<Bin> bin_of_slot_;  // sparse: in walking order
-    std::vector<Index> order_;      // [N] old slot of the point that belongs into this slot
+    std::vector<Index> order_;      // [count] old slot of the point that belongs into this slot, for permute()
 };
 
 template <class T>
 void ClusterOrder::permute(std::vector<T>& values, std::vector<T>& scratch) const {
-    scratch.resize(order_.size());
-    parallel_for(order_.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+    scratch.resize(count_);
+    parallel_for(count_, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) scratch[i] = values[order_[i]];
     });
     values.swap(scratch);
@@ -99,7 +101,7 @@ void ClusterOrder::permute(std::vector<T>& values, std::vector<T>& scratch) cons
 
 template <class Visit>
 void ClusterOrder::for_each_run(const Vec3& low, const Vec3& high, double reach, Visit&& visit) const {
-    if (order_.empty()) return;
+    if (count_ == 0) return;
     Bin first{}, last{};       // z, y, x
     Bin image_0{}, image_1{};  // periods that the box's surroundings reach into
     for (int axis = 0; axis < dimensions_; ++axis) {

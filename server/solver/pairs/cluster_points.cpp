@@ -23,7 +23,8 @@ std::int32_t cube_of(double x, double step) {
 }  // namespace
 
 template <class S>
-void ClusterPoints<S>::start(const VectorField& x, const double* V, std::size_t count, int dimensions, double support) {
+void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size_t count, int dimensions,
+                             double support) {
     count_ = count;
     dimensions_ = dimensions;
     step_ = std::exp2(std::ceil(std::log2(2.0 * support)));
@@ -37,13 +38,13 @@ void ClusterPoints<S>::start(const VectorField& x, const double* V, std::size_t 
 }
 
 template <class S>
-void ClusterPoints<S>::update(const VectorField& x, const double* V) {
+void ClusterPoints<S>::update(const VectorField& x, const FieldView& V) {
     pack<false>(x, V);
 }
 
 template <class S>
 template <bool IsStart>
-void ClusterPoints<S>::pack(const VectorField& x, const double* V) {
+void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
     parallel_for(clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
         MotionBox box;
         constexpr float kInfinity = std::numeric_limits<float>::infinity();

@@ -11,6 +11,7 @@
 
 #include "server/solver/pairs/aligned_array.h"
 #include "server/solver/pairs/cluster_order.h"
+#include "server/solver/pairs/field_view.h"
 #include "server/solver/particles.h"
 
 namespace headrace::solver {
@@ -33,9 +34,9 @@ template <class S>
 class ClusterPoints {
   public:
     // The points have got a new order: chooses reference points.
-    void start(const VectorField& x, const double* V, std::size_t count, int dimensions, double support);
+    void start(const VectorField& x, const FieldView& V, std::size_t count, int dimensions, double support);
     // They have moved, or their volumes have changed. Finds their displacement since start(). [m], [m^3]
-    void update(const VectorField& x, const double* V);
+    void update(const VectorField& x, const FieldView& V);
 
     std::size_t size() const { return count_; }
     std::size_t clusters() const { return (count_ + kClusterSize - 1) / kClusterSize; }
@@ -58,7 +59,7 @@ class ClusterPoints {
 
   private:
     template <bool IsStart>
-    void pack(const VectorField& x, const double* V);
+    void pack(const VectorField& x, const FieldView& V);
 
     std::size_t count_{};
     int dimensions_{3};

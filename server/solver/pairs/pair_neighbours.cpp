@@ -33,13 +33,13 @@ bool PairNeighboursOf<S>::covers() const {
 }
 
 template <class S>
-bool PairNeighboursOf<S>::move_fluid(const VectorField& x, const double* V) {
+bool PairNeighboursOf<S>::move_fluid(const VectorField& x, const FieldView& V) {
     fluid_.update(x, V);
     return covers();
 }
 
 template <class S>
-bool PairNeighboursOf<S>::move_walls(const VectorField& x, const double* V) {
+bool PairNeighboursOf<S>::move_walls(const VectorField& x, const FieldView& V) {
     walls_.update(x, V);
     return covers();
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "server/solver/pairs/field_view.h"
 #include "server/solver/pairs/pair_list.h"
 
 namespace headrace::solver {
@@ -16,7 +17,7 @@ enum class Arithmetic { single_precision, double_precision };
 struct OrderedPoints {
     const ClusterOrder* order{};
     const VectorField* x{};  // [m]
-    const double* V{};       // [m^3] (2D: m^2)
+    FieldView V;             // [m^3] (2D: m^2)
     std::size_t count{};
 };
 
@@ -40,8 +41,8 @@ class PairNeighbours {
 
     // The points have moved, or their volumes have changed; the order is the same. Returns false where a pair may be
     // missing: find() is due before the next sum.
-    virtual bool move_fluid(const VectorField& x, const double* V) = 0;
-    virtual bool move_walls(const VectorField& x, const double* V) = 0;
+    virtual bool move_fluid(const VectorField& x, const FieldView& V) = 0;
+    virtual bool move_walls(const VectorField& x, const FieldView& V) = 0;
 
     // Asks the visibilities of find() again, for the places of now.
     virtual void refresh_visibility() = 0;
@@ -63,8 +64,8 @@ class PairNeighboursOf final : public PairNeighbours {
         return sizeof(S) == sizeof(float) ? Arithmetic::single_precision : Arithmetic::double_precision;
     }
     void find(const NeighbourInput& input) override;
-    bool move_fluid(const VectorField& x, const double* V) override;
-    bool move_walls(const VectorField& x, const double* V) override;
+    bool move_fluid(const VectorField& x, const FieldView& V) override;
+    bool move_walls(const VectorField& x, const FieldView& V) override;
     void refresh_visibility() override;
     bool is_near_walls(std::size_t fluid_cluster) const override;
     void for_each_wall_pair(const std::function<void(Index wall, Index fluid)>& visit) const override;

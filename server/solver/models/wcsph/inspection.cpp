@@ -40,10 +40,10 @@ class TensionTerm {
     using Vector = std::array<double, D>;
 
     TensionTerm(const InspectionInput& in, Index i, const Vec3& x_i) : in_(in), rho_(in.view.particles.rho[i]) {
-        centre_ = add_point(x_i, in.view.state.V[i], std::nullopt);
+        centre_ = add_point(x_i, in.view.volume(i), std::nullopt);
         for (Index j = 0; j < in.view.particles.size(); ++j) {
             const Vec3 y = nearest_image(in.surroundings.domain, D, x_i, place_of(in.view.particles.x, D, j));
-            if (j != i && is_within(x_i, y, 2.0 * in.support)) add_point(y, in.view.state.V[j], std::nullopt);
+            if (j != i && is_within(x_i, y, 2.0 * in.support)) add_point(y, in.view.volume(j), std::nullopt);
         }
         for (Index w = 0; w < in.view.walls.size(); ++w) {
             const Vec3 y = nearest_image(in.surroundings.domain, D, x_i, place_of(in.view.walls.x, D, w));
@@ -143,8 +143,8 @@ class Inspector {
         report_.v = place_of(particles.v, D, i_);
         report_.rho = particles.rho[i_];
         report_.p = particles.p[i_];
-        report_.min_eigenvalue = in_.view.state.min_eigenvalue[i_];
-        report_.concentration = in_.view.state.V[i_] * in_.sums.W(0.0);
+        report_.min_eigenvalue = static_cast<double>(in_.view.state.min_eigenvalue[i_]);
+        report_.concentration = in_.view.volume(i_) * in_.sums.W(0.0);
         for (Index j = 0; j < particles.size(); ++j) look_at_fluid(j);
         for (Index w = 0; w < in_.view.walls.size(); ++w) look_at_wall(w);
         std::stable_sort(report_.neighbours.begin(), report_.neighbours.end(),
@@ -169,7 +169,7 @@ class Inspector {
     void look_at_fluid(Index j) {
         if (j == i_) return;
         const Vec3 y = nearest_image(in_.surroundings.domain, D, x_, place_of(in_.view.particles.x, D, j));
-        const auto pair = pair_with(y, in_.view.state.V[j]);
+        const auto pair = pair_with(y, in_.view.volume(j));
         if (!pair || (in_.thin_walls != nullptr && in_.thin_walls->is_blocked(x_, y))) return;
         note_neighbour(in_.view.particles.id[j], {}, *pair);
         const double F = in_.sums.F(pair->r);

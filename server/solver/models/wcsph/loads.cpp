@@ -26,7 +26,7 @@ void accumulate_pair(const LoadInput& in, const WcsphView& view, const WcsphSums
         force.pressure[k] += m * pressure[k];
         both[k] = m * pressure[k];
     }
-    if (options.viscosity.mu > 0.0 && view.wall_state.no_slip[w] > 0.0) {
+    if (options.viscosity.mu > 0.0 && view.wall_state.no_slip_of(w) > 0.0) {
         const std::array<double, D> viscosity = terms.wall_viscosity(i, w, pair, F);
         for (int k = 0; k < D; ++k) {
             force.viscosity[k] += m * viscosity[k];
@@ -79,6 +79,7 @@ std::vector<ObjectLoad> sum_object_loads(const WallParticles& walls, const std::
 
 WallPower compute_wall_power(const WallParticles& walls, const std::vector<WallForce>& forces) {
     WallPower power;
+    if (walls.v[0].empty()) return power;
     for (std::size_t w = 0; w < forces.size(); ++w) {
         for (int k = 0; k < walls.dimensions; ++k) {
             power.pressure += forces[w].pressure[k] * walls.v[k][w];

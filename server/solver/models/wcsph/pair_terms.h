@@ -13,6 +13,8 @@ struct WcsphView {
     const WcsphState& state;
     const WallParticles& walls;
     const WallState& wall_state;
+
+    double volume(std::size_t i) const { return particles.m[i] / particles.rho[i]; }
 };
 
 // Which forms the terms have; as the passes are given.
@@ -42,7 +44,7 @@ class PairTerms {
         PressureSums<D, double> sums;
         const Vector grad = scaled<D, double>(pair.V_j * F, pair.x_ij);
         if (options_.is_adjoint) {
-            accumulate_adjoint<D, double>(grad, matrix_at<D>(view_.state.pB, j), sums);
+            accumulate_adjoint<D, double>(grad, pressure_matrix_at<D>(view_.particles, view_.state, j), sums);
         } else {
             accumulate_difference<D, double>(grad, view_.particles.p[j], sums);
         }
@@ -51,7 +53,8 @@ class PairTerms {
 
     Vector wall_pressure(Index i, Index w, const Pair<D, double>& pair, double F) const {
         PressureSums<D, double> sums;
-        accumulate_difference<D, double>(scaled<D, double>(pair.V_j * F, pair.x_ij), view_.wall_state.p[w], sums);
+        accumulate_difference<D, double>(scaled<D, double>(pair.V_j * F, pair.x_ij),
+                                         static_cast<double>(view_.wall_state.p[w]), sums);
         if (is_controlled(i) && !options_.pressure.walls_suck) sums.grad_1 = {};
         return pressure_acceleration(i, sums);
     }
@@ -77,10 +80,10 @@ class PairTerms {
 
     Vector wall_viscosity(Index i, Index w, const Pair<D, double>& pair, double F) const {
         const double corrected =
-            view_.wall_state.no_slip[w] * corrected_factor<D, double>(pair, F, matrix_at<D>(view_.state.B, i));
+            view_.wall_state.no_slip_of(w) * corrected_factor<D, double>(pair, F, matrix_at<D>(view_.state.B, i));
         const Vector v_iw = no_slip_difference<D, double>(
-            pair, vector_at<D>(view_.walls.n, w), view_.walls.depth[w], vector_at<D>(view_.particles.v, i),
-            vector_at<D>(view_.walls.v, w), options_.viscosity.least_distance);
+            pair, vector_at<D>(view_.walls.n, w), static_cast<double>(view_.walls.depth[w]),
+            vector_at<D>(view_.particles.v, i), vector_or_zero<D>(view_.walls.v, w), options_.viscosity.least_distance);
         Vector sum{};
         accumulate_morris<D, double>(pair, corrected, v_iw, sum);
         return scaled<D, double>(options_.viscosity.mu / view_.particles.rho[i], sum);
@@ -108,13 +111,14 @@ class PairTerms {
     Vector pressure_acceleration(Index i, const PressureSums<D, double>& sums) const {
         const double p = view_.particles.p[i], rho = view_.particles.rho[i];
         if (!options_.is_adjoint) return difference_acceleration<D>(sums, p, matrix_at<D>(view_.state.B, i), rho);
-        return adjoint_acceleration<D>(sums, matrix_at<D>(view_.state.pB, i), is_controlled(i) ? -1.0 : 1.0, rho);
+        return adjoint_acceleration<D>(sums, pressure_matrix_at<D>(view_.particles, view_.state, i),
+                                       is_controlled(i) ? -1.0 : 1.0, rho);
     }
 
     bool is_controlled(Index i) const {
         return options_.is_adjoint && options_.pressure.controls_tension &&
-               controls_tension(view_.particles.p[i], view_.state.min_eigenvalue[i], view_.state.unevenness[i],
-                                options_.pressure.tension_limits);
+               controls_tension(view_.particles.p[i], static_cast<double>(view_.state.min_eigenvalue[i]),
+                                static_cast<double>(view_.state.unevenness[i]), options_.pressure.tension_limits);
     }
 
     const WcsphView& view_;

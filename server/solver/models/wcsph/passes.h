@@ -15,31 +15,47 @@
 #include "server/solver/forces/shifting.h"
 #include "server/solver/models/wcsph/state.h"
 #include "server/solver/pair.h"
+#include "server/solver/pairs/field_view.h"
 
 namespace headrace::solver {
 
-template <int D>
-HEADRACE_ALWAYS_INLINE std::array<double, D> vector_at(const VectorField& field, std::size_t i) {
+template <int D, class Field>
+HEADRACE_ALWAYS_INLINE std::array<double, D> vector_at(const Field& field, std::size_t i) {
     std::array<double, D> u;
-    for (int k = 0; k < D; ++k) u[k] = field[k][i];
+    for (int k = 0; k < D; ++k) u[k] = static_cast<double>(field[k][i]);
     return u;
 }
 
+// 0 where nothing is stored.
 template <int D>
-HEADRACE_ALWAYS_INLINE void write_vector(VectorField& field, std::size_t i, const std::array<double, D>& u) {
-    for (int k = 0; k < D; ++k) field[k][i] = u[k];
+std::array<double, D> vector_or_zero(const VectorField& field, std::size_t i) {
+    return field[0].empty() ? std::array<double, D>{} : vector_at<D>(field, i);
+}
+
+template <int D>
+HEADRACE_ALWAYS_INLINE void write_vector(NarrowField& field, std::size_t i, const std::array<double, D>& u) {
+    for (int k = 0; k < D; ++k) field[k][i] = static_cast<float>(u[k]);
 }
 
 template <int D>
 HEADRACE_ALWAYS_INLINE Symmetric<D> matrix_at(const MatrixField& field, std::size_t i) {
     Symmetric<D> m;
-    for (int k = 0; k < Symmetric<D>::kSize; ++k) m.e[k] = field[k][i];
+    for (int k = 0; k < Symmetric<D>::kSize; ++k) m.e[k] = static_cast<double>(field[k][i]);
     return m;
 }
 
 template <int D>
 HEADRACE_ALWAYS_INLINE void write_matrix(MatrixField& field, std::size_t i, const Symmetric<D>& m) {
-    for (int k = 0; k < Symmetric<D>::kSize; ++k) field[k][i] = m.e[k];
+    for (int k = 0; k < Symmetric<D>::kSize; ++k) field[k][i] = static_cast<float>(m.e[k]);
+}
+
+// p B [Pa]
+template <int D>
+HEADRACE_ALWAYS_INLINE Symmetric<D> pressure_matrix_at(const Particles& particles, const WcsphState& state,
+                                                       std::size_t i) {
+    Symmetric<D> pB = matrix_at<D>(state.B, i);
+    for (double& component : pB.e) component *= particles.p[i];
+    return pB;
 }
 
 // Fields first..first+N-1 of a point.
@@ -78,6 +94,7 @@ struct GeometryOptions {
     double shift_speed{};       // [m/s] U of every particle, beside that of its strain rate
     double strain_length{};     // [m] U = strain_length |grad v|
     double W_dx{};              // W at one spacing
+    double rho0_c2{1.0};        // [Pa] walls have the density of their pressure
     double dynamic_pressure{};  // rho0 U^2 [Pa]
     double noise{};             // [s] length of a random displacement added to the shift, over U
     std::uint64_t step{};       // drives its direction
@@ -103,24 +120,24 @@ struct GeometryPass {
         std::array<std::array<T, D>, D> grad_v{};
     };
 
-    std::array<const double*, kCentreFields> centre_fields() const { return fluid_fields(); }
-    std::array<const double*, kFluidFields> fluid_fields() const {
-        std::array<const double*, kFluidFields> fields;
-        fields[0] = data.state.delta.data();
+    std::array<FieldView, kCentreFields> centre_fields() const { return fluid_fields(); }
+    std::array<FieldView, kFluidFields> fluid_fields() const {
+        std::array<FieldView, kFluidFields> fields;
+        fields[0] = data.state.delta;
         if constexpr (HasGradients) {
-            for (int k = 0; k < D; ++k) fields[1 + k] = data.particles.v[k].data();
+            for (int k = 0; k < D; ++k) fields[1 + k] = data.particles.v[k];
         }
         return fields;
     }
-    std::array<const double*, kWallFields> wall_fields() const {
-        std::array<const double*, kWallFields> fields;
-        fields[0] = data.wall_state.delta.data();
+    std::array<FieldView, kWallFields> wall_fields() const {
+        std::array<FieldView, kWallFields> fields;
+        fields[0] = {1.0 / options.rho0_c2, data.wall_state.p};
         if constexpr (HasGradients) {
             for (int k = 0; k < D; ++k) {
-                fields[1 + k] = data.walls.v[k].data();
-                fields[1 + D + k] = data.walls.n[k].data();
+                fields[1 + k] = view_or_zero(data.walls.v[k]);
+                fields[1 + D + k] = data.walls.n[k];
             }
-            fields[1 + 2 * D] = data.wall_state.no_slip.data();
+            fields[1 + 2 * D] = view_or_zero(data.wall_state.no_slip);
         }
         return fields;
     }
@@ -167,9 +184,9 @@ struct GeometryPass {
         // Gradients may be corrected far nearer to a free surface than forces.
         const Symmetric<D> L = correction_matrix<D>(M, eigenvalue, kGradientEigenvalue);
         const std::array<double, D> grad_delta = L * sums.grad_delta;
-        state.min_eigenvalue[i] = eigenvalue;
+        state.min_eigenvalue[i] = static_cast<float>(eigenvalue);
         write_matrix<D>(state.B, i, B);
-        state.unevenness[i] = options.spacing * std::sqrt(dot<D, double>(normal, normal));
+        state.unevenness[i] = static_cast<float>(options.spacing * std::sqrt(dot<D, double>(normal, normal)));
         write_vector<D>(state.grad_delta, i, grad_delta);
         if constexpr (HasGradients) {
             const auto grad_v = velocity_gradient(sums, L, eigenvalue);
@@ -195,7 +212,7 @@ struct GeometryPass {
             write_matrix<D>(state.strain, i, strain);
             write_vector<D>(state.dx, i, dx);
             write_vector<D>(state.dv, i, dv);
-            state.ddelta[i] = dot<D, double>(grad_delta, dx);
+            state.ddelta[i] = static_cast<float>(dot<D, double>(grad_delta, dx));
         }
     }
 };
@@ -225,25 +242,25 @@ struct ContinuityPass {
         T divergence{}, diffusion{};
     };
 
-    std::array<const double*, kCentreFields> centre_fields() const {
-        std::array<const double*, kCentreFields> fields;
+    std::array<FieldView, kCentreFields> centre_fields() const {
+        std::array<FieldView, kCentreFields> fields;
         const auto shared = fluid_fields();
         std::copy(shared.begin(), shared.end(), fields.begin());
-        for (int k = 0; k < symmetric_size(D); ++k) fields[kFluidFields + k] = data.state.B[k].data();
+        for (int k = 0; k < symmetric_size(D); ++k) fields[kFluidFields + k] = data.state.B[k];
         return fields;
     }
-    std::array<const double*, kFluidFields> fluid_fields() const {
-        std::array<const double*, kFluidFields> fields;
+    std::array<FieldView, kFluidFields> fluid_fields() const {
+        std::array<FieldView, kFluidFields> fields;
         for (int k = 0; k < D; ++k) {
-            fields[k] = data.particles.v[k].data();
-            if constexpr (kIsAntuono) fields[D + 1 + k] = data.state.grad_delta[k].data();
+            fields[k] = data.particles.v[k];
+            if constexpr (kIsAntuono) fields[D + 1 + k] = data.state.grad_delta[k];
         }
-        if constexpr (kIsDiffusive) fields[D] = data.state.delta.data();
+        if constexpr (kIsDiffusive) fields[D] = data.state.delta;
         return fields;
     }
-    std::array<const double*, kWallFields> wall_fields() const {
-        std::array<const double*, kWallFields> fields;
-        for (int k = 0; k < D; ++k) fields[k] = data.walls.v[k].data();
+    std::array<FieldView, kWallFields> wall_fields() const {
+        std::array<FieldView, kWallFields> fields;
+        for (int k = 0; k < D; ++k) fields[k] = view_or_zero(data.walls.v[k]);
         return fields;
     }
 
@@ -283,6 +300,7 @@ struct PressureOptions {
     bool controls_tension{};
     TensionLimits tension_limits;
     bool walls_suck{};  // may their pressure be negative?
+    Vec3 gravity{};     // [m/s^2] where no slow acceleration is stored
 };
 
 template <int D, class Kernel, bool IsAdjoint, bool HasAlpha>
@@ -305,26 +323,26 @@ struct PressurePass {
         std::array<T, IsAdjoint ? 1 : D> artificial{};
     };
 
-    std::array<const double*, kCentreFields> centre_fields() const {
-        std::array<const double*, kCentreFields> fields;
+    std::array<FieldView, kCentreFields> centre_fields() const {
+        std::array<FieldView, kCentreFields> fields;
         const auto shared = fluid_fields();
         std::copy(shared.begin() + kPressureFields, shared.end(), fields.begin());
         return fields;
     }
-    std::array<const double*, kFluidFields> fluid_fields() const {
-        std::array<const double*, kFluidFields> fields;
+    std::array<FieldView, kFluidFields> fluid_fields() const {
+        std::array<FieldView, kFluidFields> fields;
         if constexpr (IsAdjoint) {
-            for (std::size_t k = 0; k < kPressureFields; ++k) fields[k] = data.state.pB[k].data();
+            for (std::size_t k = 0; k < kPressureFields; ++k) fields[k] = {data.particles.p, data.state.B[k]};
         } else {
-            fields[0] = data.particles.p.data();
+            fields[0] = data.particles.p;
         }
         if constexpr (HasAlpha) {
-            for (int k = 0; k < D; ++k) fields[kPressureFields + k] = data.particles.v[k].data();
-            for (int k = 0; k < symmetric_size(D); ++k) fields[kPressureFields + D + k] = data.state.strain[k].data();
+            for (int k = 0; k < D; ++k) fields[kPressureFields + k] = data.particles.v[k];
+            for (int k = 0; k < symmetric_size(D); ++k) fields[kPressureFields + D + k] = data.state.strain[k];
         }
         return fields;
     }
-    std::array<const double*, kWallFields> wall_fields() const { return {data.wall_state.p.data()}; }
+    std::array<FieldView, kWallFields> wall_fields() const { return {data.wall_state.p}; }
 
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, T>& pair, const Neighbour& neighbour,
@@ -364,7 +382,8 @@ struct PressurePass {
         const Symmetric<D> B = matrix_at<D>(data.state.B, i);
         const bool is_controlled =
             IsAdjoint && options.controls_tension &&
-            controls_tension(p, data.state.min_eigenvalue[i], data.state.unevenness[i], options.tension_limits);
+            controls_tension(p, static_cast<double>(data.state.min_eigenvalue[i]),
+                             static_cast<double>(data.state.unevenness[i]), options.tension_limits);
         // Where walls do not suck, controlled tension would push the particle off the wall, the more the further it
         // goes: it ends at the fluid.
         if (!is_controlled || options.walls_suck) add_to<D, double>(total.grad_1, sums.walls.grad_1);
@@ -372,14 +391,17 @@ struct PressurePass {
         add_to<D, double>(total.pB_grad, sums.walls.pB_grad);
         std::array<double, D> a;
         if constexpr (IsAdjoint) {
-            a = adjoint_acceleration<D>(total, matrix_at<D>(data.state.pB, i), is_controlled ? -1.0 : 1.0, rho);
+            a = adjoint_acceleration<D>(total, pressure_matrix_at<D>(data.particles, data.state, i),
+                                        is_controlled ? -1.0 : 1.0, rho);
         } else {
             a = difference_acceleration<D>(total, p, B, rho);
         }
         if constexpr (HasAlpha && !IsAdjoint) {
             for (int k = 0; k < D; ++k) a[k] += options.artificial_viscosity / rho * sums.artificial[k];
         }
-        for (int k = 0; k < D; ++k) data.particles.a[k][i] = a[k] + data.state.a_slow[k][i];
+        const VectorField& a_slow = data.state.a_slow;
+        for (int k = 0; k < D; ++k)
+            data.particles.a[k][i] = a[k] + (a_slow[k].empty() ? options.gravity[k] : a_slow[k][i]);
     }
 };
 
@@ -407,21 +429,21 @@ struct ViscosityPass {
         std::array<T, D> a{};
     };
 
-    std::array<const double*, kCentreFields> centre_fields() const { return fluid_fields(); }
-    std::array<const double*, kFluidFields> fluid_fields() const {
-        std::array<const double*, kFluidFields> fields;
-        for (int k = 0; k < D; ++k) fields[k] = data.particles.v[k].data();
-        for (std::size_t k = 0; k < kMatrix; ++k) fields[D + k] = data.state.B[k].data();
+    std::array<FieldView, kCentreFields> centre_fields() const { return fluid_fields(); }
+    std::array<FieldView, kFluidFields> fluid_fields() const {
+        std::array<FieldView, kFluidFields> fields;
+        for (int k = 0; k < D; ++k) fields[k] = data.particles.v[k];
+        for (std::size_t k = 0; k < kMatrix; ++k) fields[D + k] = data.state.B[k];
         return fields;
     }
-    std::array<const double*, kWallFields> wall_fields() const {
-        std::array<const double*, kWallFields> fields;
+    std::array<FieldView, kWallFields> wall_fields() const {
+        std::array<FieldView, kWallFields> fields;
         for (int k = 0; k < D; ++k) {
-            fields[k] = data.walls.v[k].data();
-            fields[D + k] = data.walls.n[k].data();
+            fields[k] = view_or_zero(data.walls.v[k]);
+            fields[D + k] = data.walls.n[k];
         }
-        fields[2 * D] = data.walls.depth.data();
-        fields[2 * D + 1] = data.wall_state.no_slip.data();
+        fields[2 * D] = data.walls.depth;
+        fields[2 * D + 1] = view_or_zero(data.wall_state.no_slip);
         return fields;
     }
 
@@ -458,8 +480,8 @@ struct ViscosityPass {
 // ---- acoustic step: pressure of the walls; its centres are wall particles -------------------------------------------
 
 struct WallPressureOptions {
-    double p_min{};    // [Pa] walls do not pull below this; -infinity: they may
-    double rho0_c2{};  // [Pa]
+    double p_min{};  // [Pa] walls do not pull below this; -infinity: they may
+    Vec3 gravity{};  // [m/s^2] where no other is stored
 };
 
 template <int D, class Kernel>
@@ -478,11 +500,9 @@ struct WallPressurePass {
         std::array<T, D> rho_x_W{};
     };
 
-    std::array<const double*, 0> centre_fields() const { return {}; }
-    std::array<const double*, kFluidFields> fluid_fields() const {
-        return {data.particles.p.data(), data.particles.rho.data()};
-    }
-    std::array<const double*, kWallFields> wall_fields() const { return {}; }
+    std::array<FieldView, 0> centre_fields() const { return {}; }
+    std::array<FieldView, kFluidFields> fluid_fields() const { return {data.particles.p, data.particles.rho}; }
+    std::array<FieldView, kWallFields> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, T>& pair, const Neighbour& neighbour,
                                      Sums<T>& sums) const {
@@ -496,11 +516,11 @@ struct WallPressurePass {
         double p = 0.0;
         if (sums.W > 1e-12) {
             p = sums.p_W;
-            for (int k = 0; k < D; ++k) p += data.wall_state.g[k][w] * sums.rho_x_W[k];
+            const VectorField& g = data.wall_state.g;
+            for (int k = 0; k < D; ++k) p += (g[k].empty() ? options.gravity[k] : g[k][w]) * sums.rho_x_W[k];
             p = std::max(p / sums.W, options.p_min);
         }
-        data.wall_state.p[w] = p;
-        data.wall_state.delta[w] = p / options.rho0_c2;
+        data.wall_state.p[w] = static_cast<float>(p);
     }
 };
 

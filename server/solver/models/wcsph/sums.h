@@ -27,6 +27,9 @@ class WcsphSums {
     virtual void continuum_tension(const PassData& data, const TensionOptions& options) = 0;
     virtual void thesis_tension(const PassData& data, const TensionOptions& options) = 0;
     virtual void wall_pressure(const PassData& data, const WallPressureOptions& options) = 0;
+
+    // Gives its memory back until the next pass.
+    virtual void release() = 0;
 };
 
 struct SumsChoice {

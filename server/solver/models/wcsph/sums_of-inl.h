@@ -1,5 +1,6 @@
 // WcsphSums for one kernel type and precision, for the instruction set this file is compiled for.
 #include "server/solver/models/wcsph/sums.h"
+#include "server/solver/pairs/packed_fields-inl.h"
 #include "server/solver/pairs/pair_sums-inl.h"
 
 #if defined(HEADRACE_WCSPH_SUMS_OF_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -78,6 +79,11 @@ class SumsOf final : public WcsphSums {
         sum(pass, neighbours_.walls(), {&neighbours_.wall_to_fluid(), &neighbours_.fluid(), fluid_fields_.data()}, {});
     }
 
+    void release() override {
+        fluid_fields_.release();
+        wall_fields_.release();
+    }
+
   private:
     // With the fluid as centres.
     template <class Pass>
@@ -102,7 +108,7 @@ class SumsOf final : public WcsphSums {
     Kernel kernel_;
     const PairNeighboursOf<S>& neighbours_;
     double support_;
-    FieldPack<S> fluid_fields_, wall_fields_;
+    PackedFields<S> fluid_fields_, wall_fields_;
 };
 
 template <int D, class Kernel>

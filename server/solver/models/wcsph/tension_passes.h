@@ -30,9 +30,9 @@ struct SurfaceStressPass {
         T c{};
     };
 
-    std::array<const double*, 0> centre_fields() const { return {}; }
-    std::array<const double*, 0> fluid_fields() const { return {}; }
-    std::array<const double*, 0> wall_fields() const { return {}; }
+    std::array<FieldView, 0> centre_fields() const { return {}; }
+    std::array<FieldView, 0> fluid_fields() const { return {}; }
+    std::array<FieldView, 0> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, T>& pair, const Neighbour&, Sums<T>& sums) const {
         sums.c += pair.V_j * kernel.W(pair.r);
@@ -59,13 +59,13 @@ struct ContinuumTensionPass {
         std::array<T, D> grad_1{}, S_grad{};
     };
 
-    std::array<const double*, 0> centre_fields() const { return {}; }
-    std::array<const double*, kFluidFields> fluid_fields() const {
-        std::array<const double*, kFluidFields> fields;
-        for (std::size_t k = 0; k < kFluidFields; ++k) fields[k] = data.state.surface_stress[k].data();
+    std::array<FieldView, 0> centre_fields() const { return {}; }
+    std::array<FieldView, kFluidFields> fluid_fields() const {
+        std::array<FieldView, kFluidFields> fields;
+        for (std::size_t k = 0; k < kFluidFields; ++k) fields[k] = data.state.surface_stress[k];
         return fields;
     }
-    std::array<const double*, 0> wall_fields() const { return {}; }
+    std::array<FieldView, 0> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, T>& pair, const Neighbour& neighbour,
                                      Sums<T>& sums) const {
@@ -102,9 +102,9 @@ struct ThesisTensionPass {
         T laplacian_c{};
     };
 
-    std::array<const double*, 0> centre_fields() const { return {}; }
-    std::array<const double*, 0> fluid_fields() const { return {}; }
-    std::array<const double*, 0> wall_fields() const { return {}; }
+    std::array<FieldView, 0> centre_fields() const { return {}; }
+    std::array<FieldView, 0> fluid_fields() const { return {}; }
+    std::array<FieldView, 0> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self&, const Pair<D, T>& pair, const Neighbour&, Sums<T>& sums) const {
         const T F = kernel.F(pair.r);

@@ -35,12 +35,15 @@ WallField::Change WallField::place(const Surroundings& surroundings, double t, b
         return Change::moved;
     }
     const WallParticles& w = walls_.particles();
-    state_.no_slip.resize(w.size());
+    const auto sticks = [&](const CollisionObject& object) {
+        return (object.slip == Slip::by_model ? options.slip : object.slip) == Slip::no_slip;
+    };
     state_.p.resize(w.size());
-    state_.delta.resize(w.size());
-    for (std::size_t k = 0; k < w.size(); ++k) {
-        const Slip slip = surroundings.objects[w.object[k]].slip;
-        state_.no_slip[k] = (slip == Slip::by_model ? options.slip : slip) == Slip::no_slip ? 1.0 : 0.0;
+    state_.no_slip.clear();
+    if (std::any_of(surroundings.objects.begin(), surroundings.objects.end(), sticks)) {
+        state_.no_slip.resize(w.size());
+        for (std::size_t k = 0; k < w.size(); ++k)
+            state_.no_slip[k] = sticks(surroundings.objects[w.object[k]]) ? 1.0F : 0.0F;
     }
     evaluate_gravity(surroundings, t, options.gravity);
     return Change::others;
@@ -50,26 +53,38 @@ bool WallField::put_in_order(const Domain& domain) {
     if (std::exchange(is_in_order_, true) || is_empty()) return false;
     WallParticles& w = walls_.particles();
     order_.build(w.x, w.id, dimensions_, spacing_, domain);
-    for (std::vector<Index>* field : {&w.id, &w.object, &w.sheet}) order_.permute(*field, scratch_id_);
-    for (VectorField* field : {&w.x, &w.v, &w.a, &w.n, &state_.g})
-        for (int k = 0; k < dimensions_; ++k) order_.permute((*field)[k], scratch_);
-    for (std::vector<double>* field : {&w.V, &w.depth, &state_.no_slip, &state_.p, &state_.delta})
-        order_.permute(*field, scratch_);
+    const auto permute = [this](auto& values, auto& scratch) {
+        if (!values.empty()) order_.permute(values, scratch);
+    };
+    std::vector<Index> id_scratch;
+    std::vector<double> scratch;
+    std::vector<float> narrow_scratch;
+    for (std::vector<Index>* field : {&w.id, &w.object, &w.sheet}) permute(*field, id_scratch);
+    for (VectorField* field : {&w.x, &w.v, &w.a, &state_.g})
+        for (std::vector<double>& component : *field) permute(component, scratch);
+    permute(w.V, scratch);
+    for (std::vector<float>& component : w.n) permute(component, narrow_scratch);
+    for (std::vector<float>* field : {&w.depth, &state_.no_slip, &state_.p}) permute(*field, narrow_scratch);
+    order_.forget_moves();
     return true;
 }
 
 // What a fluid particle at the wall would feel, seen from the wall.
 void WallField::evaluate_gravity(const Surroundings& surroundings, double t, const Vec3& gravity) {
     const WallParticles& w = walls_.particles();
+    state_.g = {};
+    if (surroundings.body_force == nullptr && w.a[0].empty()) return;
     for (int k = 0; k < dimensions_; ++k) state_.g[k].assign(w.size(), gravity[k]);
     if (surroundings.body_force != nullptr) {
         Particles there;
         there.dimensions = dimensions_;
-        there.resize(w.size());
+        there.id = w.id;
         there.x = w.x;
         there.v = w.v;
+        for (int k = 0; k < dimensions_; ++k) there.v[k].resize(w.size());
         (*surroundings.body_force)(t, there, state_.g);
     }
+    if (w.a[0].empty()) return;
     for (int k = 0; k < dimensions_; ++k)
         for (std::size_t i = 0; i < w.size(); ++i) state_.g[k][i] -= w.a[k][i];
 }
@@ -77,6 +92,7 @@ void WallField::evaluate_gravity(const Surroundings& surroundings, double t, con
 double WallField::max_speed() const {
     const WallParticles& w = walls_.particles();
     double v2_max = 0.0;
+    if (w.v[0].empty()) return v2_max;
     for (std::size_t i = 0; i < w.size(); ++i) {
         double v2 = 0.0;
         for (int k = 0; k < dimensions_; ++k) v2 += w.v[k][i] * w.v[k][i];
@@ -86,7 +102,7 @@ double WallField::max_speed() const {
 }
 
 OrderedPoints WallField::points() const {
-    return {&order_, &walls_.particles().x, walls_.particles().V.data(), walls_.particles().size()};
+    return {&order_, &walls_.particles().x, walls_.particles().V, walls_.particles().size()};
 }
 
 void WallField::stop_at(std::size_t object, const Vec3& n, const Vec3& x, Vec3& v) const {

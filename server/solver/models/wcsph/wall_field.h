@@ -56,8 +56,6 @@ class WallField {
     ClusterOrder order_;
     bool is_in_order_{false};
     std::uint64_t version_{~std::uint64_t{0}};  // of the walls that the state belongs to
-    std::vector<double> scratch_;
-    std::vector<Index> scratch_id_;
 };
 
 }  // namespace headrace::solver

@@ -13,13 +13,13 @@ void Wcsph::set_state_equation() {
 }
 
 void Wcsph::resize_state(std::size_t count) {
-    for (std::vector<double>* field :
-         {&state_.delta, &state_.min_eigenvalue, &state_.unevenness, &state_.ddelta, &state_.V, &state_.delta_rate})
-        field->assign(count, 0.0);
-    for (VectorField* field : {&state_.grad_delta, &state_.dx, &state_.dv, &state_.a_slow})
-        for (int k = 0; k < dimensions_; ++k) (*field)[k].assign(count, 0.0);
-    for (MatrixField* field : {&state_.B, &state_.pB, &state_.strain})
-        for (int k = 0; k < symmetric_size(dimensions_); ++k) (*field)[k].assign(count, 0.0);
+    for (std::vector<double>* field : {&state_.delta, &state_.delta_rate}) field->assign(count, 0.0);
+    for (std::vector<float>* field : {&state_.min_eigenvalue, &state_.unevenness, &state_.ddelta})
+        field->assign(count, 0.0F);
+    for (NarrowField* field : {&state_.grad_delta, &state_.dx, &state_.dv})
+        for (int k = 0; k < dimensions_; ++k) (*field)[k].assign(count, 0.0F);
+    for (MatrixField* field : {&state_.B, &state_.strain})
+        for (int k = 0; k < symmetric_size(dimensions_); ++k) (*field)[k].assign(count, 0.0F);
 }
 
 void Wcsph::put_body_force(Particles& particles, const Surroundings& surroundings) {
@@ -44,8 +44,9 @@ void Wcsph::relax(Particles& particles, const Surroundings& surroundings, const 
     constexpr double kSettled = 1e-3;  // [spacings] largest shift of a turn
     prepare(particles, surroundings);
     resize_state(particles.size());
-    std::fill(state_.V.begin(), state_.V.end(), std::pow(spacing_, dimensions_));
-    std::vector<bool> may_move(spread);  // by id: sorting changes the slots
+    std::fill(particles.m.begin(), particles.m.end(), std::pow(spacing_, dimensions_));
+    std::fill(particles.rho.begin(), particles.rho.end(), 1.0);  // what counts is the volume
+    std::vector<bool> may_move(spread);                          // by id: sorting changes the slots
     for (std::size_t i = 0; i < particles.size(); ++i) may_move[particles.id[i]] = spread[i];
     GeometryOptions options = geometry_options(true);
     options.shift_factor = 0.5 * h() * h();
@@ -61,8 +62,9 @@ void Wcsph::relax(Particles& particles, const Surroundings& surroundings, const 
             if (!may_move[particles.id[i]]) continue;
             double shift2 = 0.0;
             for (int k = 0; k < dimensions_; ++k) {
-                particles.x[k][i] += state_.dx[k][i];
-                shift2 += state_.dx[k][i] * state_.dx[k][i];
+                const double dx = state_.dx[k][i];
+                particles.x[k][i] += dx;
+                shift2 += dx * dx;
             }
             longest2 = std::max(longest2, shift2);
         }

@@ -121,6 +121,7 @@ class Wcsph final : public Model {
             p_.wall_suction == WallSuction::clamped || (p_.wall_suction == WallSuction::automatic && p_.free_surface);
         return clamps ? 0.0 : -std::numeric_limits<double>::infinity();
     }
+    static FieldView volumes(const Particles& particles) { return FieldView::quotient(particles.m, particles.rho); }
     PassData data(Particles& particles) { return {particles, state_, walls_.particles(), walls_.state()}; }
 
     WcsphView view(const Particles& particles) const { return {particles, state_, walls_.particles(), walls_.state()}; }
@@ -198,7 +199,7 @@ class Wcsph final : public Model {
     SightLines among_fluid_, fluid_to_wall_, wall_to_fluid_;
     std::uint64_t objects_version_{~std::uint64_t{0}};
     WcsphState state_;
-    Particles midpoint_;  // where the body force is evaluated; empty without one
+    Particles midpoint_;  // x, v where the body force is evaluated; empty without one
     std::unique_ptr<WcsphSums> sums_;
     FlatSurface flat_surface_;  // under this kernel
     VectorField tension_x_;     // [m] where surface tension is evaluated; empty without it
@@ -216,8 +217,6 @@ class Wcsph final : public Model {
     StepChoice next_;
     int artificial_weight_{1};  // of the last pressure force
     std::array<double, kStageCount> seconds_{};
-    std::vector<double> scratch_;
-    std::vector<Index> scratch_id_;
 };
 
 }  // namespace headrace::solver

@@ -32,22 +32,30 @@ void Wcsph::wrap(Particles& particles, const Domain& domain) const {
 void Wcsph::put_in_order(Particles& particles, const Surroundings& surroundings) {
     wrap(particles, surroundings.domain);
     order_.build(particles.x, particles.id, dimensions_, spacing_, surroundings.domain);
-    order_.permute(particles.id, scratch_id_);
-    const auto permute = [&](std::vector<double>& field) { order_.permute(field, scratch_); };
-    for (VectorField* field :
-         {&particles.x, &particles.v, &particles.a, &state_.grad_delta, &state_.a_slow, &state_.dx, &state_.dv})
-        for (int k = 0; k < dimensions_; ++k) permute((*field)[k]);
-    for (std::vector<double>* field : {&particles.m, &particles.rho, &particles.p, &state_.delta, &state_.V,
-                                       &state_.min_eigenvalue, &state_.unevenness, &state_.delta_rate, &state_.ddelta})
-        permute(*field);
-    for (MatrixField* field : {&state_.B, &state_.pB, &state_.strain})
-        for (int k = 0; k < symmetric_size(dimensions_); ++k) permute((*field)[k]);
-    if (energies_.is_on()) energies_.permute(order_, scratch_);
+    std::vector<Index> id_scratch;
+    std::vector<double> scratch;
+    std::vector<float> narrow_scratch;
+    order_.permute(particles.id, id_scratch);
+    for (VectorField* field : {&particles.x, &particles.v, &particles.a, &state_.a_slow}) {
+        for (std::vector<double>& component : *field)
+            if (!component.empty()) order_.permute(component, scratch);
+    }
+    for (std::vector<double>* field : {&particles.m, &particles.rho, &particles.p, &state_.delta, &state_.delta_rate})
+        order_.permute(*field, scratch);
+    for (NarrowField* field : {&state_.grad_delta, &state_.dx, &state_.dv})
+        for (int k = 0; k < dimensions_; ++k) order_.permute((*field)[k], narrow_scratch);
+    for (std::vector<float>* field : {&state_.min_eigenvalue, &state_.unevenness, &state_.ddelta})
+        order_.permute(*field, narrow_scratch);
+    for (MatrixField* field : {&state_.B, &state_.strain})
+        for (int k = 0; k < symmetric_size(dimensions_); ++k) order_.permute((*field)[k], narrow_scratch);
+    if (energies_.is_on()) energies_.permute(order_, scratch);
+    order_.forget_moves();
     ++sorts_;
 }
 
 void Wcsph::sort_all(Particles& particles, const Surroundings& surroundings) {
     constexpr int kMostTurns = 4;  // crowds in one place thin out over the sorts to come
+    sums_->release();              // its room is the sort's
     put_in_order(particles, surroundings);
     for (int turn = 0; turn < kMostTurns; ++turn) {
         const std::uint64_t coincident = separate_coincident(particles, spacing_, step_);
@@ -62,7 +70,7 @@ void Wcsph::list_neighbours(const Particles& particles, const Surroundings& surr
     const bool is_first = std::exchange(is_first_list_, false);
     NeighbourInput in;
     in.dimensions = dimensions_;
-    in.fluid = {&order_, &particles.x, state_.V.data(), particles.size()};
+    in.fluid = {&order_, &particles.x, volumes(particles), particles.size()};
     const bool has_new_walls = walls_.put_in_order(surroundings.domain) || is_first;
     in.walls = walls_.points();
     in.reach = {support_, skin() * spacing_, period_, nullptr};
@@ -83,7 +91,7 @@ void Wcsph::list_neighbours(const Particles& particles, const Surroundings& surr
 
 void Wcsph::find_neighbours(Particles& particles, const Surroundings& surroundings) {
     timed(kNeighbours, [&] {
-        if (!has_lists_ || !neighbours_->move_fluid(particles.x, state_.V.data())) sort_all(particles, surroundings);
+        if (!has_lists_ || !neighbours_->move_fluid(particles.x, volumes(particles))) sort_all(particles, surroundings);
     });
 }
 
@@ -91,8 +99,7 @@ void Wcsph::place_walls(const Surroundings& surroundings, double t, bool anew) {
     const WallField::Change change = walls_.place(surroundings, t, anew, {p_.gravity, p_.wall_slip});
     using enum WallField::Change;
     if (change == others) has_lists_ = false;
-    if (change == moved && has_lists_)
-        has_lists_ = neighbours_->move_walls(walls_.particles().x, walls_.particles().V.data());
+    if (change == moved && has_lists_) has_lists_ = neighbours_->move_walls(walls_.particles().x, walls_.particles().V);
     if (!anew) return;
     objects_version_ = surroundings.objects_version;
     object_names_.clear();
@@ -125,6 +132,7 @@ GeometryOptions Wcsph::geometry_options(bool shifts) const {
     options.shift_factor = p_.shifting_factor * next_.dt * 2.0 * h();
     options.strain_length = kShiftStrainLength * h();
     options.W_dx = sums_->W(spacing_);
+    options.rho0_c2 = eos_.rho0_c2;
     options.dynamic_pressure = p_.rest_density * max_speed_ * max_speed_;
     options.noise = kShiftNoise * next_.dt;
     options.limits.longest = p_.shifting_limit * spacing_;
@@ -144,22 +152,31 @@ void Wcsph::apply_shift(Particles& particles, double share) {
     parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (int k = 0; k < dimensions_; ++k) {
             for (std::size_t i = begin; i < end; ++i) {
-                particles.x[k][i] += share * state_.dx[k][i];
-                particles.v[k][i] += share * state_.dv[k][i];
+                particles.x[k][i] += share * static_cast<double>(state_.dx[k][i]);
+                particles.v[k][i] += share * static_cast<double>(state_.dv[k][i]);
             }
         }
-        for (std::size_t i = begin; i < end; ++i) state_.delta[i] += share * state_.ddelta[i];
+        for (std::size_t i = begin; i < end; ++i) state_.delta[i] += share * static_cast<double>(state_.ddelta[i]);
     });
 }
 
 void Wcsph::compute_slow_forces(Particles& particles, const Surroundings& surroundings) {
-    for (int k = 0; k < dimensions_; ++k) std::fill(state_.a_slow[k].begin(), state_.a_slow[k].end(), p_.gravity[k]);
+    const bool is_gravity_all =
+        surroundings.body_force == nullptr && p_.viscosity == 0.0 && p_.surface_tension == 0.0 && !energies_.is_on();
+    for (int k = 0; k < dimensions_; ++k) {
+        if (is_gravity_all)
+            state_.a_slow[k] = {};
+        else
+            state_.a_slow[k].assign(particles.size(), p_.gravity[k]);
+    }
     if (surroundings.body_force != nullptr) {
         // At the middle of the step: held at its start, a spring would gain energy.
         const double half = 0.5 * next_.dt;
         midpoint_.dimensions = dimensions_;
-        midpoint_.resize(particles.size());
+        midpoint_.id.resize(particles.size());
         for (int k = 0; k < dimensions_; ++k) {
+            midpoint_.x[k].resize(particles.size());
+            midpoint_.v[k].resize(particles.size());
             parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
                 for (std::size_t i = begin; i < end; ++i) {
                     midpoint_.v[k][i] = particles.v[k][i];
@@ -186,10 +203,10 @@ void Wcsph::compute_slow_forces(Particles& particles, const Surroundings& surrou
 // On the positions that the step's force stands for: held at its start, the short capillary waves would gain energy.
 void Wcsph::compute_tension(Particles& particles, const Surroundings& surroundings) {
     look_ahead(particles);
-    if (!neighbours_->move_fluid(tension_x_, state_.V.data())) {
+    if (!neighbours_->move_fluid(tension_x_, volumes(particles))) {
         sort_all(particles, surroundings);
         look_ahead(particles);
-        neighbours_->move_fluid(tension_x_, state_.V.data());
+        neighbours_->move_fluid(tension_x_, volumes(particles));
     }
     for (int k = 0; k < symmetric_size(dimensions_); ++k) state_.surface_stress[k].resize(particles.size());
     if (p_.tension_form == TensionForm::continuum) {
@@ -226,7 +243,6 @@ void Wcsph::kick_drift(Particles& particles, double kick, double drift) {
 
 // delta += dt rate, x += drift v; then everything that follows from delta.
 void Wcsph::compute_state(Particles& particles, double dt, double drift) {
-    const int components = symmetric_size(dimensions_);
     parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (int k = 0; k < dimensions_; ++k) {
             for (std::size_t i = begin; i < end; ++i) particles.x[k][i] += drift * particles.v[k][i];
@@ -235,10 +251,6 @@ void Wcsph::compute_state(Particles& particles, double dt, double drift) {
             const double delta = state_.delta[i] += dt * state_.delta_rate[i];
             particles.rho[i] = p_.rest_density * (1.0 + delta);
             particles.p[i] = eos_.pressure(delta);
-            state_.V[i] = particles.m[i] / particles.rho[i];
-        }
-        for (int c = 0; c < components; ++c) {
-            for (std::size_t i = begin; i < end; ++i) state_.pB[c][i] = particles.p[i] * state_.B[c][i];
         }
     });
 }
@@ -247,9 +259,7 @@ void Wcsph::compute_pressure_forces(Particles& particles, const Surroundings& su
     compute_state(particles, 0.0, 0.0);
     find_neighbours(particles, surroundings);
     if (!walls_.is_empty()) {
-        timed(kWalls, [&] {
-            sums_->wall_pressure(data(particles), {least_wall_pressure(), p_.rest_density * c0_ * c0_});
-        });
+        timed(kWalls, [&] { sums_->wall_pressure(data(particles), {least_wall_pressure(), p_.gravity}); });
     }
     timed(kPressure, [&] { compute_pressure(particles, surroundings); });
 }
@@ -259,6 +269,7 @@ PressureOptions Wcsph::pressure_options() const {
     options.artificial_viscosity = artificial_viscosity();
     options.controls_tension = p_.tension_control && is_adjoint() && p_.free_surface;
     options.walls_suck = least_wall_pressure() < 0.0;
+    options.gravity = p_.gravity;
     return options;
 }
 

@@ -121,5 +121,6 @@ inline Box box_between(const Vec3& min, const Vec3& max) {
 
 // Round-off of some hundred terms, each exact to a few units in the last place of coordinates near 1.
 constexpr double kRoundOff = 1e-12;
+constexpr double kSingle = 2e-7;  // rounding of normals and depths, which are stored in single precision
 
 }  // namespace headrace::solver

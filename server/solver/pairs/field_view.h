@@ -1,0 +1,67 @@
+// One number per point, to read: stored in double or single precision, or made of what is stored, so that no array has
+// to hold what a product tells. Pair loops read fields so (packed_fields-inl.h).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace headrace::solver {
+
+class FieldView {
+  public:
+    enum class Kind { zero, wide, narrow, product, quotient, scaled };
+
+    FieldView() = default;                                                                        // 0 everywhere
+    FieldView(const double* values) : kind_(Kind::wide), wide_(values) {}                         // NOLINT: values
+    FieldView(const std::vector<double>& values) : FieldView(values.data()) {}                    // NOLINT: values
+    FieldView(const std::vector<float>& values) : kind_(Kind::narrow), narrow_(values.data()) {}  // NOLINT: values
+    // a b, in double precision.
+    FieldView(const std::vector<double>& a, const std::vector<float>& b)
+        : kind_(Kind::product), wide_(a.data()), narrow_(b.data()) {}
+    FieldView(double factor, const std::vector<float>& values)
+        : kind_(Kind::scaled), narrow_(values.data()), factor_(factor) {}
+    static FieldView quotient(const std::vector<double>& a, const std::vector<double>& b) {
+        FieldView view(a);
+        view.kind_ = Kind::quotient;
+        view.divisor_ = b.data();
+        return view;
+    }
+
+    Kind kind() const { return kind_; }
+    const double* wide() const { return wide_; }
+    const double* divisor() const { return divisor_; }
+    const float* narrow() const { return narrow_; }
+    double factor() const { return factor_; }
+
+    double operator[](std::size_t i) const {
+        switch (kind_) {
+            case Kind::zero:
+                break;
+            case Kind::wide:
+                return wide_[i];
+            case Kind::narrow:
+                return static_cast<double>(narrow_[i]);
+            case Kind::product:
+                return wide_[i] * static_cast<double>(narrow_[i]);
+            case Kind::quotient:
+                return wide_[i] / divisor_[i];
+            case Kind::scaled:
+                return factor_ * static_cast<double>(narrow_[i]);
+        }
+        return 0.0;
+    }
+
+  private:
+    Kind kind_{Kind::zero};
+    const double *wide_{}, *divisor_{};
+    const float* narrow_{};
+    double factor_{};
+};
+
+// 0 everywhere where nothing is stored.
+template <class T>
+FieldView view_or_zero(const std::vector<T>& values) {
+    return values.empty() ? FieldView() : FieldView(values);
+}
+
+}  // namespace headrace::solver
