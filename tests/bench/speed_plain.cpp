@@ -52,12 +52,13 @@ PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp, in
     for (int k = 0; k < dimensions; ++k) {
         fluid.domain.max[k] = length;
         fluid.domain.periodic[k] = true;
-        for (solver::VectorField* field : {&fluid.x, &fluid.v, &fluid.v_half, &fluid.a}) (*field)[k].resize(count);
+        for (solver::VectorField* field : {&fluid.x, &fluid.v_half}) (*field)[k].resize(count);
+        for (solver::NarrowField* field : {&fluid.v, &fluid.a}) (*field)[k].resize(count);
     }
-    fluid.delta.assign(count, kMeanDelta);
-    fluid.delta_half = fluid.delta;
+    fluid.delta.assign(count, static_cast<float>(kMeanDelta));
+    fluid.delta_half.assign(count, kMeanDelta);
     fluid.delta_rate.resize(count);
-    fluid.V.assign(count, std::pow(kSpacing, dimensions));
+    fluid.V.assign(count, static_cast<float>(std::pow(kSpacing, dimensions)));
     std::mt19937_64 random(kSeed);
     std::uniform_real_distribution<double> uniform(-kJitter, kJitter);
     for (std::size_t i = 0; i < count; ++i) {
@@ -68,7 +69,7 @@ PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp, in
             x[k] = fluid.x[k][i] = (place + 0.5 + uniform(random)) * kSpacing;
         }
         const solver::Vec3 v = vortex(dimensions, x, 2.0 * std::numbers::pi * waves / length, kMach * kSoundSpeed);
-        for (int k = 0; k < dimensions; ++k) fluid.v[k][i] = v[k];
+        for (int k = 0; k < dimensions; ++k) fluid.v[k][i] = static_cast<float>(v[k]);
     }
     return fluid;
 }
@@ -77,8 +78,9 @@ void start_plain_fluid(PlainFluid& fluid) {
     const double half = 0.5 * fluid.dt;
     for_blocks(fluid, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            for (int k = 0; k < fluid.dimensions; ++k) fluid.v_half[k][i] = fluid.v[k][i] - half * fluid.a[k][i];
-            fluid.delta_half[i] = fluid.delta[i] - half * fluid.delta_rate[i];
+            for (int k = 0; k < fluid.dimensions; ++k)
+                fluid.v_half[k][i] = static_cast<double>(fluid.v[k][i]) - half * static_cast<double>(fluid.a[k][i]);
+            fluid.delta_half[i] = kMeanDelta - half * static_cast<double>(fluid.delta_rate[i]);
         }
     });
 }
@@ -88,18 +90,22 @@ void advance_plain_fluid(PlainFluid& fluid) {
     const double mass = std::pow(fluid.spacing, fluid.dimensions) * (1.0 + kMeanDelta);  // over rho0
     for_blocks(fluid, [&](std::size_t begin, std::size_t end) {
         for (int k = 0; k < fluid.dimensions; ++k) {
-            double *x = fluid.x[k].data(), *v = fluid.v[k].data(), *v_half = fluid.v_half[k].data();
-            const double* a = fluid.a[k].data();
+            double *x = fluid.x[k].data(), *v_half = fluid.v_half[k].data();
+            float* v = fluid.v[k].data();
+            const float* narrow_a = fluid.a[k].data();
             for (std::size_t i = begin; i < end; ++i) {
-                v_half[i] += dt * a[i];
+                const double a = narrow_a[i];
+                v_half[i] += dt * a;
                 x[i] += dt * v_half[i];
-                v[i] = v_half[i] + half * a[i];
+                v[i] = static_cast<float>(v_half[i] + half * a);
             }
         }
         for (std::size_t i = begin; i < end; ++i) {
-            fluid.delta_half[i] += dt * fluid.delta_rate[i];
-            fluid.delta[i] = fluid.delta_half[i] + half * fluid.delta_rate[i];
-            fluid.V[i] = mass / (1.0 + fluid.delta[i]);
+            const double rate = fluid.delta_rate[i];
+            fluid.delta_half[i] += dt * rate;
+            const double delta = fluid.delta_half[i] + half * rate;
+            fluid.delta[i] = static_cast<float>(delta);
+            fluid.V[i] = static_cast<float>(mass / (1.0 + delta));
         }
     });
 }

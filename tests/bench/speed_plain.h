@@ -12,12 +12,14 @@
 #include "server/solver/forces/pressure_gradient.h"
 #include "server/solver/objects.h"
 #include "server/solver/pair.h"
+#include "server/solver/pairs/field_view.h"
 #include "server/solver/particles.h"
 #include "server/solver/smoothing_kernels.h"
 
 namespace headrace::bench {
 
-// In storage order. delta = rho/rho0 - 1.
+// In storage order. delta = rho/rho0 - 1. What is carried on from step to step is kept in double precision, what each
+// step finds anew as the loops read it.
 struct PlainFluid {
     int dimensions{3};
     double spacing{};      // [m]
@@ -26,10 +28,10 @@ struct PlainFluid {
     double dt{};           // [s]
     solver::Domain domain;
     std::vector<solver::Index> id;
-    solver::VectorField x, v, v_half, a;                   // v: extrapolated to the time of x
-    std::vector<double> V, delta, delta_half, delta_rate;  // [m^3] (2D: m^2), [1], [1], [1/s]
-    std::vector<double> scratch;
-    std::vector<solver::Index> scratch_id;
+    solver::VectorField x, v_half;
+    std::vector<double> delta_half;
+    solver::NarrowField v, a;                 // v, delta: extrapolated to the time of x
+    std::vector<float> V, delta, delta_rate;  // [m^3] (2D: m^2), [1], [1/s]
 
     std::size_t size() const { return id.size(); }
 };
@@ -50,10 +52,15 @@ void wrap_plain_fluid(PlainFluid& fluid);
 // Puts all but the rates into the order that Order (ClusterOrder, CellGrid) found.
 template <class Order>
 void permute_plain_fluid(PlainFluid& fluid, const Order& order) {
-    order.permute(fluid.id, fluid.scratch_id);
-    for (solver::VectorField* field : {&fluid.x, &fluid.v, &fluid.v_half})
-        for (int k = 0; k < fluid.dimensions; ++k) order.permute((*field)[k], fluid.scratch);
-    for (std::vector<double>* field : {&fluid.V, &fluid.delta, &fluid.delta_half}) order.permute(*field, fluid.scratch);
+    std::vector<solver::Index> id_scratch;
+    std::vector<double> scratch;
+    std::vector<float> narrow_scratch;
+    order.permute(fluid.id, id_scratch);
+    for (solver::VectorField* field : {&fluid.x, &fluid.v_half})
+        for (int k = 0; k < fluid.dimensions; ++k) order.permute((*field)[k], scratch);
+    order.permute(fluid.delta_half, scratch);
+    for (int k = 0; k < fluid.dimensions; ++k) order.permute(fluid.v[k], narrow_scratch);
+    for (std::vector<float>* field : {&fluid.V, &fluid.delta}) order.permute(*field, narrow_scratch);
 }
 
 // Its terms as a pass of the pair engine (pairs/pair_sums-inl.h).
@@ -75,13 +82,18 @@ struct PlainPass {
         T divergence{}, diffusion{};
     };
 
-    std::array<const double*, kFluidFields> fluid_fields() const {
-        std::array<const double*, kFluidFields> fields;
+    std::array<const float*, kCentreFields> centre_fields() const {
+        std::array<const float*, kCentreFields> fields;
         for (int k = 0; k < D; ++k) fields[k] = fluid.v[k].data();
         fields[D] = fluid.delta.data();
         return fields;
     }
-    std::array<const double*, kCentreFields> centre_fields() const { return fluid_fields(); }
+    std::array<solver::FieldView, kFluidFields> fluid_fields() const {
+        std::array<solver::FieldView, kFluidFields> fields;
+        for (int k = 0; k < D; ++k) fields[k] = fluid.v[k];
+        fields[D] = fluid.delta;
+        return fields;
+    }
 
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self& self, const solver::Pair<D, T>& pair, const Neighbour& neighbour,
@@ -102,10 +114,10 @@ struct PlainPass {
     }
 
     void store(solver::Index i, const Sums<double>& sums) const {
-        const double c = fluid.sound_speed, rho = 1.0 + fluid.delta[i];  // over rho0
-        for (int k = 0; k < D; ++k) fluid.a[k][i] = -c * c / rho * sums.push[k];
-        fluid.delta_rate[i] =
-            solver::kUsualDiffusion * 0.5 * fluid.support * c * sums.diffusion - rho * sums.divergence;
+        const double c = fluid.sound_speed, rho = 1.0 + static_cast<double>(fluid.delta[i]);  // over rho0
+        for (int k = 0; k < D; ++k) fluid.a[k][i] = static_cast<float>(-c * c / rho * sums.push[k]);
+        fluid.delta_rate[i] = static_cast<float>(solver::kUsualDiffusion * 0.5 * fluid.support * c * sums.diffusion -
+                                                 rho * sums.divergence);
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include "server/solver/neighbours.h"
 #include "server/solver/pairs/cluster_order.h"
+#include "server/solver/pairs/packed_fields-inl.h"
 #include "server/solver/pairs/pair_neighbours.h"
 #include "server/solver/pairs/pair_sums-inl.h"
 #include "tests/bench/speed_clock.h"
@@ -30,16 +31,18 @@ class ClusterSums final : public PlainSums {
   public:
     void compute(PlainFluid& fluid, StageSeconds& seconds) override {
         StageClock clock;
-        const bool covers = has_lists_ && neighbours_.move_fluid(fluid.x, fluid.V.data());
+        const bool covers = has_lists_ && neighbours_.move_fluid(fluid.x, fluid.V);
         seconds.pair += clock.lap();
         if (!covers) {
+            fields_.release();
             wrap_plain_fluid(fluid);
             order_.build(fluid.x, fluid.id, D, fluid.spacing, fluid.domain);
             permute_plain_fluid(fluid, order_);
+            order_.forget_moves();
             seconds.sort += clock.lap();
             solver::NeighbourInput in;
             in.dimensions = D;
-            in.fluid = {&order_, &fluid.x, fluid.V.data(), fluid.size()};
+            in.fluid = {&order_, &fluid.x, fluid.V, fluid.size()};
             in.reach = {fluid.support, kSkin * fluid.spacing, fluid.domain.max, nullptr};
             neighbours_.find(in);
             has_lists_ = true;
@@ -49,7 +52,7 @@ class ClusterSums final : public PlainSums {
         const PlainPass<D> pass(fluid);
         fields_.fill(pass.fluid_fields(), fluid.size());
         const solver::HWY_NAMESPACE::NeighbourSource<float> source{&neighbours_.among_fluid(), &neighbours_.fluid(),
-                                                                   fields_.data()};
+                                                                   fields_.fluid()};
         solver::parallel_for(source.list->blocks().size(), 2, [&](std::size_t first, std::size_t last, int) {
             for (std::size_t b = first; b < last; ++b)
                 solver::HWY_NAMESPACE::sum_block<D, float>(pass, neighbours_.fluid(), source, {}, b);
@@ -65,7 +68,7 @@ class ClusterSums final : public PlainSums {
 
     solver::ClusterOrder order_;
     solver::PairNeighboursOf<float> neighbours_;
-    solver::HWY_NAMESPACE::FieldPack<float> fields_;
+    solver::HWY_NAMESPACE::PackedFields<float> fields_;
     bool has_lists_{false};
     long sorts_{};
 };
@@ -92,10 +95,10 @@ class CandidateBuffer {
             for (int k = 0; k < D; ++k) {
                 const double shift = run.image[k] * (fluid.domain.max[k] - fluid.domain.min[k]) - origin_[k];
                 copy(fluid.x[k].data(), run, shift, field(k) + at);
-                copy(fluid.v[k].data(), run, 0.0, field(D + static_cast<std::size_t>(k)) + at);
+                copy(fluid.v[k].data(), run, field(D + static_cast<std::size_t>(k)) + at);
             }
-            copy(fluid.delta.data(), run, 0.0, field(2 * D) + at);
-            copy(fluid.V.data(), run, 0.0, field(kV) + at);
+            copy(fluid.delta.data(), run, field(2 * D) + at);
+            copy(fluid.V.data(), run, field(kV) + at);
             at += run.end - run.begin;
         }
         for (std::size_t f = 0; f < kFields; ++f) {
@@ -112,6 +115,9 @@ class CandidateBuffer {
   private:
     static void copy(const double* from, const solver::Run& run, double shift, float* to) {
         for (Index j = run.begin; j < run.end; ++j) *to++ = static_cast<float>(from[j] + shift);
+    }
+    static void copy(const float* from, const solver::Run& run, float* to) {
+        std::copy(from + run.begin, from + run.end, to);
     }
 
     std::size_t count_{}, stride_{};
@@ -144,7 +150,7 @@ HWY_NOINLINE void sum_cell_buffered(const PlainPass<D>& pass, const CandidateBuf
         std::array<T, D> x_i;
         for (int k = 0; k < D; ++k) x_i[k] = T(pass.fluid.x[k][i] - candidates.origin(k));
         solver::FieldsOf<T, D + 1> self, neighbour;
-        for (std::size_t f = 0; f <= D; ++f) self.field[f] = T(fields[f][i]);
+        for (std::size_t f = 0; f <= D; ++f) self.field[f] = T(static_cast<double>(fields[f][i]));
         typename PlainPass<D>::template Sums<T> sums{};
         for (std::size_t j = 0; j < candidates.size(); j += T::kCount) {
             solver::Pair<D, T> pair;
@@ -179,7 +185,7 @@ HWY_NOINLINE void sum_cell_broadcast(const PlainPass<D>& pass, const CandidateBu
         for (std::size_t l = 0; l < points; ++l) {
             for (int k = 0; k < D; ++k)
                 own[k][l] = static_cast<float>(pass.fluid.x[k][first + l] - candidates.origin(k));
-            for (std::size_t f = 0; f <= D; ++f) own[D + f][l] = static_cast<float>(fields[f][first + l]);
+            for (std::size_t f = 0; f <= D; ++f) own[D + f][l] = fields[f][first + l];
         }
         std::array<T, D> x_i;
         for (int k = 0; k < D; ++k) x_i[k] = load<T>(own[k]);

@@ -74,9 +74,9 @@ void Walls::rebuild(std::span<const CollisionObject> objects, const Domain& doma
 }
 
 void Walls::forget_sampling() {
-    dummies_ = {};
-    place_ = {};
-    active_ = {};
+    std::vector<Dummy>().swap(dummies_);
+    std::vector<Vec3>().swap(place_);
+    std::vector<char>().swap(active_);
 }
 
 bool Walls::move_to(double t) {

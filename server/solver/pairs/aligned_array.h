@@ -15,6 +15,7 @@ class AlignedArray {
     // Keeps nothing of what was there where it must grow.
     void resize(std::size_t size) {
         if (size > capacity_) {
+            data_.reset();  // before there is another
             capacity_ = size + size / 8;
             data_.reset(static_cast<T*>(::operator new[](capacity_ * sizeof(T), std::align_val_t{kAlignment})));
         }

@@ -42,7 +42,7 @@ class ClusterOrder {
     void permute(std::vector<T>& values, std::vector<T>& scratch) const;
 
     // After the last permute(): gives the memory back that only permute() needs.
-    void forget_moves() { order_ = {}; }
+    void forget_moves() { std::vector<Index>().swap(order_); }
 
     std::size_t size() const { return count_; }
     std::size_t clusters() const { return (size() + kClusterSize - 1) / kClusterSize; }

@@ -24,7 +24,7 @@ std::int32_t cube_of(double x, double step) {
 
 template <class S>
 void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size_t count, int dimensions,
-                             double support) {
+                             double support, bool moves) {
     count_ = count;
     dimensions_ = dimensions;
     step_ = std::exp2(std::ceil(std::log2(2.0 * support)));
@@ -32,7 +32,7 @@ void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size
     records_.resize(clusters() * stride_);
     reference_.resize(clusters());
     boxes_.resize(clusters());
-    start_.resize(clusters() * static_cast<std::size_t>(dimensions) * kClusterSize);
+    start_.resize(moves ? clusters() * static_cast<std::size_t>(dimensions) * kClusterSize : 0);
     motion_.resize((clusters() + kMotionBlock - 1) / kMotionBlock);
     pack<true>(x, V);
 }
@@ -45,6 +45,7 @@ void ClusterPoints<S>::update(const VectorField& x, const FieldView& V) {
 template <class S>
 template <bool IsStart>
 void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
+    [[maybe_unused]] const bool keeps_start = start_.size() > 0;
     parallel_for(clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
         MotionBox box;
         constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -55,7 +56,7 @@ void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
         for (std::size_t c = first; c < last; ++c) {
             const std::size_t begin = c * kClusterSize, in_cluster = std::min(kClusterSize, count_ - begin);
             S* record = &records_[c * stride_];
-            float* start = &start_[c * static_cast<std::size_t>(dimensions_) * kClusterSize];
+            std::size_t start = c * static_cast<std::size_t>(dimensions_) * kClusterSize;
             for (int k = 0; k < dimensions_; ++k, record += kClusterSize, start += kClusterSize) {
                 const double* places = x[k].data() + begin;
                 double low = places[0], high = places[0];
@@ -75,9 +76,9 @@ void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
                     const double place = l < in_cluster ? places[l] - centre : kOutOfReach * step_;
                     record[l] = static_cast<S>(place);
                     if constexpr (IsStart) {
-                        start[l] = static_cast<float>(place);
+                        if (keeps_start) start_[start + l] = static_cast<float>(place);
                     } else {
-                        const float moved = static_cast<float>(place) - start[l];
+                        const float moved = static_cast<float>(place) - start_[start + l];
                         box.low[k] = std::min(box.low[k], moved);
                         box.high[k] = std::max(box.high[k], moved);
                     }

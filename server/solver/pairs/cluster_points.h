@@ -33,8 +33,9 @@ struct ClusterBox {
 template <class S>
 class ClusterPoints {
   public:
-    // The points have got a new order: chooses reference points.
-    void start(const VectorField& x, const FieldView& V, std::size_t count, int dimensions, double support);
+    // The points have got a new order: chooses reference points. moves: will there be an update()?
+    void start(const VectorField& x, const FieldView& V, std::size_t count, int dimensions, double support,
+               bool moves = true);
     // They have moved, or their volumes have changed. Finds their displacement since start(). [m], [m^3]
     void update(const VectorField& x, const FieldView& V);
 
@@ -68,7 +69,7 @@ class ClusterPoints {
     AlignedArray<S> records_;
     std::vector<std::array<std::int32_t, 3>> reference_;
     std::vector<ClusterBox> boxes_;
-    AlignedArray<float> start_;  // [clusters][D][4] relative places when the order was new
+    AlignedArray<float> start_;  // [clusters][D][4] relative places when the order was new; empty where none moves
     std::vector<MotionBox> motion_;
 };
 

@@ -11,10 +11,11 @@ class FieldView {
   public:
     enum class Kind { zero, wide, narrow, product, quotient, scaled };
 
-    FieldView() = default;                                                                        // 0 everywhere
-    FieldView(const double* values) : kind_(Kind::wide), wide_(values) {}                         // NOLINT: values
-    FieldView(const std::vector<double>& values) : FieldView(values.data()) {}                    // NOLINT: values
-    FieldView(const std::vector<float>& values) : kind_(Kind::narrow), narrow_(values.data()) {}  // NOLINT: values
+    FieldView() = default;                                                      // 0 everywhere
+    FieldView(const double* values) : kind_(Kind::wide), wide_(values) {}       // NOLINT: values
+    FieldView(const std::vector<double>& values) : FieldView(values.data()) {}  // NOLINT: values
+    FieldView(const float* values) : kind_(Kind::narrow), narrow_(values) {}    // NOLINT: values
+    FieldView(const std::vector<float>& values) : FieldView(values.data()) {}   // NOLINT: values
     // a b, in double precision.
     FieldView(const std::vector<double>& a, const std::vector<float>& b)
         : kind_(Kind::product), wide_(a.data()), narrow_(b.data()) {}

@@ -22,23 +22,38 @@ namespace headrace::solver::HWY_NAMESPACE {
 template <class S>
 class PackedFields {
   public:
-    template <std::size_t Fields>
-    void fill(const std::array<FieldView, Fields>& fields, std::size_t count) {
-        const std::size_t clusters = (count + kClusterSize - 1) / kClusterSize;
-        packed_.resize(clusters * Fields * kClusterSize);
-        if constexpr (Fields > 0) {
-            parallel_for(clusters, kAtOnce, [&](std::size_t first, std::size_t last, int) {
-                for (std::size_t f = 0; f < Fields; ++f)
-                    pack(fields[f], first, last, count, &packed_[(first * Fields + f) * kClusterSize],
-                         Fields * kClusterSize);
-            });
-        }
+    // Of the fluid and of the walls, one behind the other.
+    template <std::size_t FluidFields, std::size_t WallFields = 0>
+    void fill(const std::array<FieldView, FluidFields>& fluid, std::size_t fluid_points,
+              const std::array<FieldView, WallFields>& walls = {}, std::size_t wall_points = 0) {
+        walls_at_ = numbers<FluidFields>(fluid_points);
+        packed_.resize(walls_at_ + numbers<WallFields>(wall_points));
+        pack_all(fluid, fluid_points, packed_.data());
+        pack_all(walls, wall_points, packed_.data() + walls_at_);
     }
-    const S* data() const { return packed_.data(); }
+    const S* fluid() const { return packed_.data(); }
+    const S* walls() const { return packed_.data() + walls_at_; }
     // What it held is not needed any more.
     void release() { packed_ = {}; }
 
   private:
+    static std::size_t clusters_of(std::size_t points) { return (points + kClusterSize - 1) / kClusterSize; }
+    template <std::size_t Fields>
+    static std::size_t numbers(std::size_t points) {
+        return clusters_of(points) * Fields * kClusterSize;
+    }
+
+    template <std::size_t Fields>
+    static void pack_all(const std::array<FieldView, Fields>& fields, std::size_t points, S* to) {
+        if constexpr (Fields > 0) {
+            parallel_for(clusters_of(points), kAtOnce, [&](std::size_t first, std::size_t last, int) {
+                for (std::size_t f = 0; f < Fields; ++f)
+                    pack(fields[f], first, last, points, to + (first * Fields + f) * kClusterSize,
+                         Fields * kClusterSize);
+            });
+        }
+    }
+
     static constexpr std::size_t kAtOnce = 64;  // clusters: what is written of them stays in the first cache
 
     HWY_INLINE static void pack(const FieldView& field, std::size_t first, std::size_t last, std::size_t count, S* to,
@@ -74,6 +89,7 @@ class PackedFields {
     }
 
     AlignedArray<S> packed_;
+    std::size_t walls_at_{};
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

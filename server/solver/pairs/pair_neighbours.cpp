@@ -9,18 +9,18 @@ namespace headrace::solver {
 template <class S>
 void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     input_ = input;
-    const auto start = [&](ClusterPoints<S>& points, const OrderedPoints& of) {
-        points.start(*of.x, of.V, of.count, input.dimensions, input.reach.support);
+    const auto start = [&](ClusterPoints<S>& points, const OrderedPoints& of, bool moves) {
+        points.start(*of.x, of.V, of.count, input.dimensions, input.reach.support, moves);
     };
     ReachOptions reach = input.reach;
-    start(fluid_, input.fluid);
+    start(fluid_, input.fluid, true);
     reach.visibility = input.among_fluid;
     among_fluid_.build(fluid_, *input.fluid.x, fluid_, *input.fluid.order, reach);
     if (input.walls.count == 0) {
         walls_ = {};
         return;
     }
-    if (input.has_new_walls) start(walls_, input.walls);
+    if (input.has_new_walls) start(walls_, input.walls, input.walls_move);
     reach.visibility = input.fluid_to_wall;
     fluid_to_wall_.build(fluid_, *input.fluid.x, walls_, *input.walls.order, reach);
     wall_to_fluid_.build_transposed(fluid_to_wall_, walls_.clusters());

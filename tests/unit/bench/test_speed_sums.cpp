@@ -38,7 +38,7 @@ Tolerance judge(PlainFluid& fluid) {
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         typename Pass::template Sums<double> sums;
         solver::FieldsOf<double, D + 1> self, neighbour;
-        for (std::size_t f = 0; f <= D; ++f) self.field[f] = fields[f][i];
+        for (std::size_t f = 0; f <= D; ++f) self.field[f] = static_cast<double>(fields[f][i]);
         double neighbours = 0.0;
         for (std::size_t j = 0; j < fluid.size(); ++j) {
             solver::Pair<D, double> pair;
@@ -46,8 +46,8 @@ Tolerance judge(PlainFluid& fluid) {
                 pair.x_ij[k] = std::remainder(fluid.x[k][i] - fluid.x[k][j], fluid.domain.max[k]);
             pair.r2 = solver::dot<D, double>(pair.x_ij, pair.x_ij);
             pair.r = std::sqrt(pair.r2);
-            pair.V_j = fluid.V[j];
-            for (std::size_t f = 0; f <= D; ++f) neighbour.field[f] = fields[f][j];
+            pair.V_j = static_cast<double>(fluid.V[j]);
+            for (std::size_t f = 0; f <= D; ++f) neighbour.field[f] = static_cast<double>(fields[f][j]);
             pass.template pair<false>(self, pair, neighbour, sums);
             if (j == i || pair.r >= fluid.support) continue;
             double v2 = 0.0;
@@ -58,8 +58,8 @@ Tolerance judge(PlainFluid& fluid) {
             ++neighbours;
         }
         most = std::max(most, neighbours);
-        V = std::max(V, fluid.V[i]);
-        delta = std::max(delta, std::abs(fluid.delta[i]));
+        V = std::max(V, static_cast<double>(fluid.V[i]));
+        delta = std::max(delta, std::abs(static_cast<double>(fluid.delta[i])));
         pass.store(static_cast<solver::Index>(i), sums);
     }
     const double eps = std::numeric_limits<float>::epsilon(), c = fluid.sound_speed;
@@ -76,8 +76,11 @@ Difference find_difference(const PlainFluid& one, const PlainFluid& exact) {
     Difference worst;
     for (std::size_t i = 0; i < one.size(); ++i) {
         REQUIRE(one.id[i] == exact.id[i]);
-        for (int k = 0; k < D; ++k) worst.a = std::max(worst.a, std::abs(one.a[k][i] - exact.a[k][i]));
-        worst.delta_rate = std::max(worst.delta_rate, std::abs(one.delta_rate[i] - exact.delta_rate[i]));
+        const auto compare = [i](double largest, const std::vector<float>& a, const std::vector<float>& b) {
+            return std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+        };
+        for (int k = 0; k < D; ++k) worst.a = compare(worst.a, one.a[k], exact.a[k]);
+        worst.delta_rate = compare(worst.delta_rate, one.delta_rate, exact.delta_rate);
     }
     return worst;
 }
@@ -100,9 +103,10 @@ void check_strategies(int edge, double support_over_dp) {
         const Tolerance tolerance = judge<D>(exact);
         // Small enough to tell: without one pair of average distance the sums would be off by far more.
         const bench::PlainPass<D> pass(exact);
-        const double one_pair = exact.V[0] * std::abs(pass.kernel.F(0.6 * exact.support)) * 0.6 * exact.support;
+        const double one_pair =
+            static_cast<double>(exact.V[0]) * std::abs(pass.kernel.F(0.6 * exact.support)) * 0.6 * exact.support;
         const double c = exact.sound_speed;
-        REQUIRE(tolerance.a < c * c * exact.delta[0] * one_pair);
+        REQUIRE(tolerance.a < c * c * static_cast<double>(exact.delta[0]) * one_pair);
         const Difference difference = find_difference<D>(fluid, exact);
         CHECK(difference.a <= tolerance.a);
         CHECK(difference.delta_rate <= tolerance.delta_rate);

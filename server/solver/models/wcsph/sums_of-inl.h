@@ -75,26 +75,20 @@ class SumsOf final : public WcsphSums {
     void wall_pressure(const PassData& data, const WallPressureOptions& options) override {
         const WallPressurePass<D, Kernel> pass{kernel_, data, options};
         if (!neighbours_.has_walls()) return;
-        fluid_fields_.fill(pass.fluid_fields(), neighbours_.fluid().size());
-        sum(pass, neighbours_.walls(), {&neighbours_.wall_to_fluid(), &neighbours_.fluid(), fluid_fields_.data()}, {});
+        fields_.fill(pass.fluid_fields(), neighbours_.fluid().size());
+        sum(pass, neighbours_.walls(), {&neighbours_.wall_to_fluid(), &neighbours_.fluid(), fields_.fluid()}, {});
     }
 
-    void release() override {
-        fluid_fields_.release();
-        wall_fields_.release();
-    }
+    void release() override { fields_.release(); }
 
   private:
     // With the fluid as centres.
     template <class Pass>
     void run(const Pass& pass) {
-        fluid_fields_.fill(pass.fluid_fields(), neighbours_.fluid().size());
+        fields_.fill(pass.fluid_fields(), neighbours_.fluid().size(), pass.wall_fields(), neighbours_.walls().size());
         NeighbourSource<S> walls;
-        if (neighbours_.has_walls()) {
-            wall_fields_.fill(pass.wall_fields(), neighbours_.walls().size());
-            walls = {&neighbours_.fluid_to_wall(), &neighbours_.walls(), wall_fields_.data()};
-        }
-        sum(pass, neighbours_.fluid(), {&neighbours_.among_fluid(), &neighbours_.fluid(), fluid_fields_.data()}, walls);
+        if (neighbours_.has_walls()) walls = {&neighbours_.fluid_to_wall(), &neighbours_.walls(), fields_.walls()};
+        sum(pass, neighbours_.fluid(), {&neighbours_.among_fluid(), &neighbours_.fluid(), fields_.fluid()}, walls);
     }
 
     template <class Pass>
@@ -108,7 +102,7 @@ class SumsOf final : public WcsphSums {
     Kernel kernel_;
     const PairNeighboursOf<S>& neighbours_;
     double support_;
-    PackedFields<S> fluid_fields_, wall_fields_;
+    PackedFields<S> fields_;
 };
 
 template <int D, class Kernel>

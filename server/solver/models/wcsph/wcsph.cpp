@@ -29,7 +29,7 @@ void Wcsph::put_body_force(Particles& particles, const Surroundings& surrounding
 
 void Wcsph::prepare(Particles& particles, const Surroundings& surroundings) {
     for (int k = 0; k < 3; ++k) {
-        particles.v_half[k].clear();
+        std::vector<double>().swap(particles.v_half[k]);
         period_[k] = surroundings.domain.max[k] - surroundings.domain.min[k];
     }
     put_body_force(particles, surroundings);

@@ -84,6 +84,7 @@ void Wcsph::list_neighbours(const Particles& particles, const Surroundings& surr
         in.fluid_to_wall = &fluid_to_wall_;
         in.wall_to_fluid = &wall_to_fluid_;
     }
+    in.walls_move = walls_.has_moving();
     in.has_new_walls = has_new_walls;
     neighbours_->find(in);
     has_lists_ = true;
@@ -165,7 +166,7 @@ void Wcsph::compute_slow_forces(Particles& particles, const Surroundings& surrou
         surroundings.body_force == nullptr && p_.viscosity == 0.0 && p_.surface_tension == 0.0 && !energies_.is_on();
     for (int k = 0; k < dimensions_; ++k) {
         if (is_gravity_all)
-            state_.a_slow[k] = {};
+            std::vector<double>().swap(state_.a_slow[k]);
         else
             state_.a_slow[k].assign(particles.size(), p_.gravity[k]);
     }
