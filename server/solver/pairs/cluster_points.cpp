@@ -84,8 +84,9 @@ void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
                     }
                 }
             }
-            for (std::size_t l = 0; l < kClusterSize; ++l)
-                record[l] = l < in_cluster ? static_cast<S>(V[begin + l]) : S{};
+            std::array<double, kClusterSize> volumes{};
+            V.read(begin, in_cluster, volumes.data());
+            for (std::size_t l = 0; l < kClusterSize; ++l) record[l] = static_cast<S>(volumes[l]);
         }
         motion_[first / kMotionBlock] = IsStart ? MotionBox{} : box;
     });

@@ -2,6 +2,7 @@
 // to hold what a product tells. Pair loops read fields so (packed_fields-inl.h).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -34,29 +35,70 @@ class FieldView {
     const float* narrow() const { return narrow_; }
     double factor() const { return factor_; }
 
-    double operator[](std::size_t i) const {
+    // Those of points [begin, begin + count).
+    void read(std::size_t begin, std::size_t count, double* to) const {
         switch (kind_) {
             case Kind::zero:
-                break;
+                return write(begin, count, to, [](std::size_t) { return 0.0; });
             case Kind::wide:
-                return wide_[i];
+                return write(begin, count, to, [this](std::size_t i) { return wide_[i]; });
             case Kind::narrow:
-                return static_cast<double>(narrow_[i]);
+                return write(begin, count, to, [this](std::size_t i) { return static_cast<double>(narrow_[i]); });
             case Kind::product:
-                return wide_[i] * static_cast<double>(narrow_[i]);
+                return write(begin, count, to,
+                             [this](std::size_t i) { return wide_[i] * static_cast<double>(narrow_[i]); });
             case Kind::quotient:
-                return wide_[i] / divisor_[i];
+                return write(begin, count, to, [this](std::size_t i) { return wide_[i] / divisor_[i]; });
             case Kind::scaled:
-                return factor_ * static_cast<double>(narrow_[i]);
+                return write(begin, count, to,
+                             [this](std::size_t i) { return factor_ * static_cast<double>(narrow_[i]); });
         }
-        return 0.0;
+    }
+    double operator[](std::size_t i) const {
+        double value = 0.0;
+        read(i, 1, &value);
+        return value;
     }
 
   private:
+    template <class Value>
+    static void write(std::size_t begin, std::size_t count, double* to, Value&& value) {
+        for (std::size_t k = 0; k < count; ++k) to[k] = value(begin + k);
+    }
+
     Kind kind_{Kind::zero};
     const double *wide_{}, *divisor_{};
     const float* narrow_{};
     double factor_{};
+};
+
+// Fields of centres, the first ones in double precision, the others in single: fields[f][i]. Which, the compiler knows.
+template <std::size_t Wide, std::size_t Narrow>
+class CentreFields {
+  public:
+    struct Field {
+        const double* wide;
+        const float* narrow;
+        double operator[](std::size_t i) const { return wide != nullptr ? wide[i] : static_cast<double>(narrow[i]); }
+    };
+
+    template <std::size_t Count>
+    void set(std::size_t first, const std::array<std::vector<double>, Count>& components, std::size_t count) {
+        for (std::size_t k = 0; k < count; ++k) wide_[first + k] = components[k].data();
+    }
+    template <std::size_t Count>
+    void set(std::size_t first, const std::array<std::vector<float>, Count>& components, std::size_t count) {
+        for (std::size_t k = 0; k < count; ++k) narrow_[first + k - Wide] = components[k].data();
+    }
+    void set(std::size_t at, const std::vector<double>& values) { wide_[at] = values.data(); }
+
+    Field operator[](std::size_t f) const {
+        return f < Wide ? Field{wide_[f], nullptr} : Field{nullptr, narrow_[f - Wide]};
+    }
+
+  private:
+    std::array<const double*, Wide> wide_{};
+    std::array<const float*, Narrow> narrow_{};
 };
 
 // 0 everywhere where nothing is stored.

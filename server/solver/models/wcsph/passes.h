@@ -120,7 +120,12 @@ struct GeometryPass {
         std::array<std::array<T, D>, D> grad_v{};
     };
 
-    std::array<FieldView, kCentreFields> centre_fields() const { return fluid_fields(); }
+    CentreFields<kCentreFields, 0> centre_fields() const {
+        CentreFields<kCentreFields, 0> fields;
+        fields.set(0, data.state.delta);
+        if constexpr (HasGradients) fields.set(1, data.particles.v, D);
+        return fields;
+    }
     std::array<FieldView, kFluidFields> fluid_fields() const {
         std::array<FieldView, kFluidFields> fields;
         fields[0] = data.state.delta;
@@ -242,11 +247,13 @@ struct ContinuityPass {
         T divergence{}, diffusion{};
     };
 
-    std::array<FieldView, kCentreFields> centre_fields() const {
-        std::array<FieldView, kCentreFields> fields;
-        const auto shared = fluid_fields();
-        std::copy(shared.begin(), shared.end(), fields.begin());
-        for (int k = 0; k < symmetric_size(D); ++k) fields[kFluidFields + k] = data.state.B[k];
+    auto centre_fields() const {
+        constexpr std::size_t kWide = D + (kIsDiffusive ? 1 : 0);
+        CentreFields<kWide, kCentreFields - kWide> fields;
+        fields.set(0, data.particles.v, D);
+        if constexpr (kIsDiffusive) fields.set(D, data.state.delta);
+        if constexpr (kIsAntuono) fields.set(kWide, data.state.grad_delta, D);
+        fields.set(kFluidFields, data.state.B, symmetric_size(D));
         return fields;
     }
     std::array<FieldView, kFluidFields> fluid_fields() const {
@@ -323,10 +330,13 @@ struct PressurePass {
         std::array<T, IsAdjoint ? 1 : D> artificial{};
     };
 
-    std::array<FieldView, kCentreFields> centre_fields() const {
-        std::array<FieldView, kCentreFields> fields;
-        const auto shared = fluid_fields();
-        std::copy(shared.begin() + kPressureFields, shared.end(), fields.begin());
+    auto centre_fields() const {
+        constexpr std::size_t kWide = HasAlpha ? D : 0;
+        CentreFields<kWide, kCentreFields - kWide> fields;
+        if constexpr (HasAlpha) {
+            fields.set(0, data.particles.v, D);
+            fields.set(D, data.state.strain, symmetric_size(D));
+        }
         return fields;
     }
     std::array<FieldView, kFluidFields> fluid_fields() const {
@@ -429,7 +439,12 @@ struct ViscosityPass {
         std::array<T, D> a{};
     };
 
-    std::array<FieldView, kCentreFields> centre_fields() const { return fluid_fields(); }
+    CentreFields<D, kMatrix> centre_fields() const {
+        CentreFields<D, kMatrix> fields;
+        fields.set(0, data.particles.v, D);
+        fields.set(D, data.state.B, kMatrix);
+        return fields;
+    }
     std::array<FieldView, kFluidFields> fluid_fields() const {
         std::array<FieldView, kFluidFields> fields;
         for (int k = 0; k < D; ++k) fields[k] = data.particles.v[k];
@@ -500,7 +515,7 @@ struct WallPressurePass {
         std::array<T, D> rho_x_W{};
     };
 
-    std::array<FieldView, 0> centre_fields() const { return {}; }
+    CentreFields<0, 0> centre_fields() const { return {}; }
     std::array<FieldView, kFluidFields> fluid_fields() const { return {data.particles.p, data.particles.rho}; }
     std::array<FieldView, kWallFields> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>

@@ -30,7 +30,7 @@ struct SurfaceStressPass {
         T c{};
     };
 
-    std::array<FieldView, 0> centre_fields() const { return {}; }
+    CentreFields<0, 0> centre_fields() const { return {}; }
     std::array<FieldView, 0> fluid_fields() const { return {}; }
     std::array<FieldView, 0> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>
@@ -59,7 +59,7 @@ struct ContinuumTensionPass {
         std::array<T, D> grad_1{}, S_grad{};
     };
 
-    std::array<FieldView, 0> centre_fields() const { return {}; }
+    CentreFields<0, 0> centre_fields() const { return {}; }
     std::array<FieldView, kFluidFields> fluid_fields() const {
         std::array<FieldView, kFluidFields> fields;
         for (std::size_t k = 0; k < kFluidFields; ++k) fields[k] = data.state.surface_stress[k];
@@ -102,7 +102,7 @@ struct ThesisTensionPass {
         T laplacian_c{};
     };
 
-    std::array<FieldView, 0> centre_fields() const { return {}; }
+    CentreFields<0, 0> centre_fields() const { return {}; }
     std::array<FieldView, 0> fluid_fields() const { return {}; }
     std::array<FieldView, 0> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>
