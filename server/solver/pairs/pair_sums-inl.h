@@ -14,6 +14,8 @@
 //   Sums<T>                         accumulators, made of T alone, starting at 0
 //   pair<IsWall>(self, pair, neighbour, sums)   self(f), neighbour(f): field f, a T each
 //   store(i, sums)                  what becomes of the sums of centre i
+#include <type_traits>
+
 #include "server/solver/pair.h"
 #include "server/solver/pairs/lane_loads-inl.h"
 #include "server/solver/pairs/pair_list.h"
@@ -28,41 +30,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace headrace::solver::HWY_NAMESPACE {
-
-// Fields of points as the loop reads them: of each cluster, field by field, its four numbers.
-template <class S>
-class FieldPack {
-  public:
-    template <std::size_t Fields>
-    void fill(const std::array<const double*, Fields>& fields, std::size_t count) {
-        const std::size_t clusters = (count + kClusterSize - 1) / kClusterSize;
-        packed_.resize(clusters * Fields * kClusterSize);
-        if constexpr (Fields > 0) {
-            parallel_for(clusters, kParticleBlock / kClusterSize, [&](std::size_t first, std::size_t last, int) {
-                const std::size_t whole = std::min(last, count / kClusterSize);
-                for (std::size_t c = first; c < whole; ++c) {
-                    S* to = &packed_[c * Fields * kClusterSize];
-                    for (std::size_t f = 0; f < Fields; ++f, to += kClusterSize) {
-                        const double* from = fields[f] + c * kClusterSize;
-                        for (std::size_t l = 0; l < kClusterSize; ++l) to[l] = static_cast<S>(from[l]);
-                    }
-                }
-                if (whole == last) return;
-                S* to = &packed_[whole * Fields * kClusterSize];
-                for (std::size_t f = 0; f < Fields; ++f) {
-                    for (std::size_t l = 0; l < kClusterSize; ++l) {
-                        const std::size_t i = whole * kClusterSize + l;
-                        *to++ = i < count ? static_cast<S>(fields[f][i]) : S{};
-                    }
-                }
-            });
-        }
-    }
-    const S* data() const { return packed_.data(); }
-
-  private:
-    AlignedArray<S> packed_;
-};
 
 // One kind of neighbours, with the list that leads to them.
 template <class S>
@@ -145,12 +112,17 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
             for (int k = 0; k < D; ++k) x_i[k] = spread_four<S>(centres.record(c) + 4 * k + part);
             FieldsOf<T, Pass::kCentreFields> self;
             for (std::size_t f = 0; f < Pass::kCentreFields; ++f) {
-                if (points == kClusterSize) {
-                    self.field[f] = spread_four<S>(centre_fields[f] + begin + part);
-                } else {
+                const auto field = centre_fields[f];
+                if (points < kClusterSize) {
                     std::array<double, kClusterSize> four{};
-                    for (std::size_t l = 0; l < points; ++l) four[l] = centre_fields[f][begin + l];
+                    for (std::size_t l = 0; l < points; ++l) four[l] = static_cast<double>(field[begin + l]);
                     self.field[f] = spread_four<S>(&four[part]);
+                } else if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(field)>>) {
+                    self.field[f] = spread_four<S>(field + begin + part);
+                } else if (field.wide != nullptr) {
+                    self.field[f] = spread_four<S>(field.wide + begin + part);
+                } else {
+                    self.field[f] = spread_four<S>(field.narrow + begin + part);
                 }
             }
             LaneSums sums{};
