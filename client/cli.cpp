@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kFooter =
     R"(A server is chosen by --server, else by HEADRACE_SERVER, else it is tcp://127.0.0.1:5755. `run`,
-`converge` and `plan` need none: they start a private headraced (HEADRACE_SERVER_BINARY, else the one beside this
+`converge` and `plan SCENE` need none: they start a private headraced (HEADRACE_SERVER_BINARY, else the one beside this
 program).
 
 Exit status:

@@ -100,6 +100,7 @@ proto::Status info(const Globals& globals, const std::string& file) {
                     {"fields", split(fields, ',')},
                     {"events", (*opened)->events().size()},
                     {"program", summary.metadata.program},
+                    {"strategy", summary.metadata.strategy},
                     {"session", summary.metadata.session}});
         return proto::Done{};
     }
@@ -111,7 +112,8 @@ proto::Status info(const Globals& globals, const std::string& file) {
         print_line(plural(static_cast<std::int64_t>(summary.damaged_bytes), "damaged byte") + " skipped");
     print_line("scene " + scene_name + ", " + plural(static_cast<std::int64_t>(particles), "particle") + ", fields " +
                fields + ", " + plural(std::ssize((*opened)->events()), "event"));
-    print_line("made by " + summary.metadata.program + ", session " + summary.metadata.session);
+    print_line("made by " + summary.metadata.program + ", session " + summary.metadata.session +
+               (summary.metadata.strategy.empty() ? "" : ", " + summary.metadata.strategy));
     return proto::Done{};
 }
 

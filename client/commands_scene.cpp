@@ -2,6 +2,7 @@
 #include "client/command.h"
 #include "client/endpoints.h"
 #include "client/jobs.h"
+#include "client/plan_text.h"
 #include "client/scene_request.h"
 #include "client/spawn.h"
 #include "client/text.h"
@@ -51,23 +52,48 @@ proto::Status scenes(const Globals& globals) {
     });
 }
 
-proto::Status plan(const Globals& globals, const SceneChoice& choice) {
-    auto params = scene_load_params(choice.scene, choice.assignments);
+struct PlanChoice {
+    SceneChoice scene;  // none: that of the chosen server
+    std::int64_t steps{0};
+};
+
+proto::Status print_plan(const Globals& globals, Connection& connection, const std::string& headline) {
+    auto status = call<proto::SimStatusReply>(connection, "sim.status", proto::SimStatus{});
+    if (!status) return status.error();
+    if (globals.json) {
+        print_json(proto::to_json(*status)["plan"]);
+        return proto::Done{};
+    }
+    if (!status->scene) {
+        print_line("no scene is loaded");
+        return proto::Done{};
+    }
+    print_line(headline.empty()
+                   ? *status->scene + " (" + status->model.value_or("?") + "): " + at_moment(status->step, status->time)
+                   : headline);
+    for (const std::string& line : plan_lines(status->plan)) print_line(line);
+    return proto::Done{};
+}
+
+proto::Status plan(const Globals& globals, const PlanChoice& choice) {
+    if (choice.scene.scene.empty()) {
+        auto connection = connect(globals);
+        return connection ? print_plan(globals, **connection, "") : connection.error();
+    }
+    auto params = scene_load_params(choice.scene.scene, choice.scene.assignments);
     if (!params) return params.error();
     return with_any_server(globals, true, [&](Connection& connection) -> proto::Status {
         auto loaded = load_scene(connection, *params);
         if (!loaded) return loaded.error();
-        auto status = call<proto::SimStatusReply>(connection, "sim.status", proto::SimStatus{});
-        if (!status) return status.error();
-        if (globals.json) {
-            print_json(proto::to_json(*status)["plan"]);
-            return proto::Done{};
+        std::string headline = loaded_line(*loaded);
+        if (choice.steps > 0) {
+            auto job =
+                call<proto::JobReply>(connection, "sim.step", proto::SimStep{choice.steps}, Patience::while_alive);
+            if (!job) return job.error();
+            if (auto verdict = job_verdict(connection, *job); !verdict) return verdict;
+            headline += "; after " + at_moment(job->step, job->time);
         }
-        print_line(loaded_line(*loaded));
-        for (const proto::PlanStage& stage : status->plan)
-            print_line(stage.stage + (stage.active ? (stage.reason.empty() ? "" : ": ") : ": skipped, ") +
-                       stage.reason);
-        return proto::Done{};
+        return print_plan(globals, connection, headline);
     });
 }
 
@@ -86,6 +112,10 @@ void print_status(const proto::SimStatusReply& status) {
         line +=
             ", " + number(status.steps_per_second) + " steps/s, " + number(status.real_time_factor) + " x real time";
     print_line(line);
+    if (status.strategy) {
+        const std::string busiest = busiest_stages(status.plan);
+        print_line("pairs: " + *status.strategy + (busiest.empty() ? "" : "; time in " + busiest));
+    }
     if (status.diagnostics)
         print_line("max speed " + number(status.diagnostics->max_speed) + " m/s, kinetic energy " +
                    number(status.diagnostics->kinetic_energy) + " J (2D: J/m), density mean " +
@@ -103,7 +133,7 @@ void print_status(const proto::SimStatusReply& status) {
 }
 
 void add_scene_options(CLI::App& subcommand, SceneChoice& choice) {
-    subcommand.add_option("SCENE", choice.scene, "a scene's name (headrace scenes) or a file.json")->required();
+    subcommand.add_option("SCENE", choice.scene, "a scene's name (headrace scenes) or a file.json");
     subcommand.add_option("--set", choice.assignments, "parameter of the model, name=value; can be repeated")
         ->allow_extra_args(false);
 }
@@ -112,13 +142,20 @@ void add_scene_options(CLI::App& subcommand, SceneChoice& choice) {
 
 void add_scene_commands(CLI::App& app, CommandLine& line) {
     auto to_load = std::make_shared<SceneChoice>();
-    add_scene_options(*add_command(app, line, "load", "load a scene",
-                                   [to_load](const Globals& globals) { return load(globals, *to_load); }),
-                      *to_load);
-    auto to_plan = std::make_shared<SceneChoice>();
-    add_scene_options(*add_command(app, line, "plan", "tell which stages a step of a scene has, and why",
-                                   [to_plan](const Globals& globals) { return plan(globals, *to_plan); }),
-                      *to_plan);
+    CLI::App& loader = *add_command(app, line, "load", "load a scene",
+                                    [to_load](const Globals& globals) { return load(globals, *to_load); });
+    add_scene_options(loader, *to_load);
+    loader.get_option("SCENE")->required();
+    auto to_plan = std::make_shared<PlanChoice>();
+    CLI::App& planner =
+        *add_command(app, line, "plan", "tell which stages a step has, which are skipped and why, and what they take",
+                     [to_plan](const Globals& globals) { return plan(globals, *to_plan); });
+    planner.footer("With a SCENE a private server plans it. Without one: the plan of the server's scene, as it runs.");
+    add_scene_options(planner, to_plan->scene);
+    planner.add_option("--steps", to_plan->steps, "run so many steps of SCENE first, to time the stages")
+        ->check(CLI::NonNegativeNumber)
+        ->needs("SCENE");
+    planner.get_option("--set")->needs("SCENE");
     add_command(app, line, "scenes", "list the scenes that need no file", scenes);
     add_command(app, line, "reset", "load the scene anew: step 0, its own objects and parameters",
                 [](const Globals& globals) {

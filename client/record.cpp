@@ -30,9 +30,11 @@ proto::Result<proto::RecordingMetadata> collect_metadata(Connection& connection)
     if (!scene) return scene.error();
     auto objects = call<proto::ObjectsListReply>(connection, "objects.list", proto::ObjectsList{});
     if (!objects) return objects.error();
+    auto status = call<proto::SimStatusReply>(connection, "sim.status", proto::SimStatus{});
+    if (!status) return status.error();
     const proto::HelloReply& hello = connection.hello();
     return proto::RecordingMetadata{scene->dump(), proto::objects_text(objects->objects), hello.session,
-                                    hello.program + " " + hello.version};
+                                    hello.program + " " + hello.version, status->strategy.value_or("")};
 }
 
 }  // namespace

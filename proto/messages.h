@@ -152,6 +152,8 @@ struct SimStatusReply {
     SimState state{SimState::empty};
     std::optional<std::string> scene;
     std::optional<std::string> model;
+    // How its pairs are summed: scheme, precision, instruction set. Another one may change the last bits of a run.
+    std::optional<std::string> strategy;
     std::uint64_t step{};
     double time{};                // [s]
     double time_step{};           // [s] of the last step, or of the next one before the first

@@ -108,6 +108,9 @@ void describe(Visitor& v, SimStatusReply& m) {
     v.required("state", m.state, {.meaning = "state of the server"});
     v.optional("scene", m.scene, {.meaning = "name of the scene"});
     v.optional("model", m.model, {.meaning = "name of the model"});
+    v.optional("strategy", m.strategy,
+               {.meaning = "how its pairs are summed: scheme, precision, instruction set; another one may change the "
+                           "last bits of a run"});
     v.required("step", m.step, kStep);
     v.required("time", m.time, kTime);
     v.required("time_step", m.time_step, {.meaning = "of the last step, or of the next before the first", .unit = "s"});

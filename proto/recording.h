@@ -29,6 +29,7 @@ struct RecordingMetadata {
     std::string objects_json;  // array of ObjectDesc: the objects when the recording began
     std::string session;       // of the server
     std::string program;       // "headraced 0.1.0"
+    std::string strategy;      // how the model summed its pairs, as in sim.status; empty: not known
 };
 
 // Owner: one thread. Writes go to the kernel at the end of each chunk, so a killed process loses nothing it returned

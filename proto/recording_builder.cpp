@@ -59,7 +59,8 @@ bool IndexBuilder::take_metadata(ByteView content) {
     mcap::StringMap map = cursor.map();
     if (!cursor.ok() || !cursor.done()) return false;
     if (name == kStartName)
-        index_.summary.metadata = {map["scene_json"], map["objects_json"], map["session"], map["program"]};
+        index_.summary.metadata = {map["scene_json"], map["objects_json"], map["session"], map["program"],
+                                   map["strategy"]};
     if (name == kEndName) end_ = std::move(map);
     return true;
 }

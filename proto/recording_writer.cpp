@@ -110,7 +110,8 @@ Status RecordingWriter::Impl::begin(const RecordingMetadata& metadata) {
                  {{"scene_json", metadata.scene_json},
                   {"objects_json", metadata.objects_json},
                   {"session", metadata.session},
-                  {"program", metadata.program}});
+                  {"program", metadata.program},
+                  {"strategy", metadata.strategy}});
     metadata_entries.push_back({kStartName, start, out.size() - start});
     return append(std::array<ByteView, 1>{out});
 }

@@ -1,5 +1,6 @@
 #include "server/probe_watch.h"
 
+#include <chrono>
 #include <map>
 
 namespace headrace::server {
@@ -50,6 +51,7 @@ proto::Result<probes::ProbeSet> ProbeWatch::make(scene::Run& run) {
 
 void ProbeWatch::restart(probes::ProbeSet probes, std::uint64_t generation) {
     probes_ = std::move(probes);
+    seconds_ = 0.0;
     board_.restart(generation);
     for (const std::string& name : probes_.names()) board_.add(*probes_.find(name), probes_.columns(name));
 }
@@ -71,7 +73,9 @@ proto::Status ProbeWatch::remove(scene::Run& run, const std::string& name) {
 std::vector<std::pair<std::string, std::string>> ProbeWatch::sample(const scene::Run& run) {
     std::vector<std::pair<std::string, std::string>> failed;
     if (probes_.is_empty()) return failed;
+    const auto start = std::chrono::steady_clock::now();
     const std::vector<probes::Sample> samples = probes_.sample_due(view_of(run));
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (samples.empty()) return failed;
     proto::ProbeSamples shown{run.time(), {}};
     std::map<std::string, std::string> failures;

@@ -32,10 +32,12 @@ class ProbeWatch {
     std::vector<std::pair<std::string, std::string>> sample(const scene::Run& run);
 
     const probes::ProbeSet& probes() const { return probes_; }
+    double seconds() const { return seconds_; }  // [s] wall time spent in sample() since the run began
 
   private:
     ProbeBoard& board_;
     probes::ProbeSet probes_{1.0};
+    double seconds_{};
 };
 
 }  // namespace headrace::server

@@ -68,7 +68,10 @@ void Simulation::Impl::capture_due() {
     if (!run) return;
     const publish::Moment now{run->step_number(), run->time(), Clock::now()};
     hub.capture_due(now, [&](proto::FieldSet fields, proto::Precision precision) {
-        return publish::copy_fields(run->particles(), fields, precision, now, hub.generation());
+        const auto start = Clock::now();
+        auto capture = publish::copy_fields(run->particles(), fields, precision, now, hub.generation());
+        frame_seconds += std::chrono::duration<double>(Clock::now() - start).count();
+        return capture;
     });
 }
 
@@ -85,7 +88,8 @@ SimState Simulation::Impl::state() const {
 }
 
 void Simulation::Impl::write_status() {
-    SimulationView view{state(), run.get(), last_job, stalled, loader.progress()};
+    SimulationView view{state(),           run.get(), last_job,      stalled,
+                        loader.progress(), &probes,   hub.demands(), frame_seconds};
     if (job)
         view.job = job->reply(proto::JobState::running, "", place());
     else if (paused)

@@ -158,6 +158,7 @@ struct Simulation::Impl {
 
     std::optional<AtRestWatch> at_rest;
     bool is_at_rest{false};
+    double frame_seconds{0.0};  // [s] wall time spent in copying frames since the run began
     bool is_overdue_reported{false};
     bool is_faulted{false};
     bool stalled{false};

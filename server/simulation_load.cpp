@@ -38,6 +38,7 @@ void Simulation::Impl::apply(Token, LoadFinished load) {
     refuse_deferred({ErrorCode::cancelled, "another scene was loaded before that step", "params.at_step", ""});
     run = std::move(*load.run);
     is_faulted = is_at_rest = is_overdue_reported = false;
+    frame_seconds = 0.0;
     scene_events.restart();
     at_rest.emplace(*run);
     status.forget_run();

@@ -1,5 +1,6 @@
 #include "server/status_writer.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -13,6 +14,26 @@ constexpr auto kRateWindow = std::chrono::milliseconds(1'000);
 
 proto::Diagnostics to_proto(const solver::Diagnostics& from) {
     return {from.max_speed, from.kinetic_energy, from.potential_energy, from.mean_density, from.max_density};
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+    constexpr std::size_t kMost = 5;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(names.size(), kMost); ++k) text += (k == 0 ? "" : ", ") + names[k];
+    return names.size() > kMost ? text + ", ..." : text;
+}
+
+proto::PlanStage probes_stage(const ProbeWatch& watch) {
+    if (watch.probes().is_empty()) return {"probes", false, "there are none", 0.0};
+    return {"probes", true, "sampled when due: " + list_of(watch.probes().names()), watch.seconds()};
+}
+
+proto::PlanStage frames_stage(const SimulationView& view) {
+    const bool is_wanted = view.frame_demands > 0;
+    return {"frames", is_wanted,
+            is_wanted ? "copied when due; consumers: " + std::to_string(view.frame_demands)
+                      : "no stream with a subscriber, no recording, no request",
+            view.frame_seconds};
 }
 
 }  // namespace
@@ -88,6 +109,7 @@ void StatusWriter::write(const SimulationView& view) {
         update_details(view, now);
         status.scene = scene_->name;
         status.model = view.run->model().name();
+        status.strategy = view.run->model().strategy();
         status.step = view.run->step_number();
         status.time = view.run->time();
         status.time_step = view.run->model().time_step();
@@ -97,6 +119,8 @@ void StatusWriter::write(const SimulationView& view) {
         status.real_time_factor = real_time_factor_;
         status.diagnostics = diagnostics_;
         status.plan = plan_;
+        status.plan.push_back(probes_stage(*view.probes));
+        status.plan.push_back(frames_stage(view));
         status.state_hash = hash_;
         status.fault = fault_;
         snapshot->scene = scene_;

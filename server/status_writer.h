@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "server/job.h"
+#include "server/probe_watch.h"
 #include "server/scene/run.h"
 #include "server/status.h"
 
@@ -18,6 +19,10 @@ struct SimulationView {
     std::optional<proto::JobReply> job;
     bool stalled{false};
     double load_progress{0.0};
+    // What is done around the run's steps, for the plan; not touched without a run.
+    const ProbeWatch* probes{nullptr};
+    std::size_t frame_demands{0};  // consumers of frames
+    double frame_seconds{0.0};     // [s] wall time spent in copying for them
 };
 
 // Owner: the simulation thread.

@@ -132,6 +132,12 @@ std::uint64_t FrameHub::generation() const {
 
 // ---- simulation's side ----------------------------------------------------------------------------------------------
 
+std::size_t FrameHub::demands() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<std::size_t>(
+        std::count_if(entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.active; }));
+}
+
 bool FrameHub::may_step() {
     const std::lock_guard lock(mutex_);
     bool may = true;

@@ -93,6 +93,8 @@ class FrameHub {
     void not_stepping();  // paused or ended: nobody is held up
     // Copies what is due now. `copy` is called once per precision in use at most, and not at all when nothing is due.
     void capture_due(const Moment& now, const Copy& copy);
+    // Who may want frames: all demands but live streams that nobody is subscribed to.
+    std::size_t demands() const;
     // After a load or reset: another generation begins, intervals count from here, everybody gets the new state.
     void restart();
     std::uint64_t generation() const;

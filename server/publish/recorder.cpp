@@ -58,7 +58,8 @@ proto::Result<proto::RecordStartReply> Recorder::start(const proto::RecordStart&
     if (!path) return path.error();
 
     const proto::RecordingMetadata metadata{proto::scene_text(*now->scene), proto::objects_text(*now->objects),
-                                            hex(session_), std::string("headraced ") + proto::kProgramVersion};
+                                            hex(session_), std::string("headraced ") + proto::kProgramVersion,
+                                            now->status.strategy.value_or("")};
     auto writer = proto::RecordingWriter::create(*path, metadata, {request.compression, request.overwrite});
     if (!writer) return writer.error();
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -69,6 +70,9 @@ class Model {
     virtual ParameterMap parameters() const = 0;
     // All or none; takes effect at the next step.
     virtual std::optional<ParameterError> set_parameters(const ParameterMap& values) = 0;
+
+    // How pairs are summed: strategy, precision, instruction set. Where it differs, so may the last bits of a run.
+    virtual std::string strategy() const = 0;
 
     // The stages of a step in their order, skipped ones included, with the time spent in each.
     virtual std::vector<Stage> plan(const Surroundings& surroundings) const = 0;

@@ -76,6 +76,30 @@ TEST_CASE("Probes.OfASceneAreSampledFromItsStart") {
     CHECK(loaded.client.ask("probes.get", {{"name", "tip"}}).error_name() == "probe_not_found");
 }
 
+TEST_CASE("Probes.AndFramesAreInThePlanOnlyWhileSomebodyWantsThem") {
+    Loaded loaded(pond());
+    const auto stage = [&](const char* name) {
+        const Json plan = loaded.client.call("sim.status")["plan"];
+        return *std::find_if(plan.begin(), plan.end(), [&](const Json& one) { return one["stage"] == name; });
+    };
+    loaded.client.call("sim.step", {{"steps", 3}});
+    for (const char* name : {"probes", "frames"}) {
+        INFO(name);
+        CHECK_FALSE(stage(name)["active"].get<bool>());
+        CHECK(stage(name)["seconds"] == 0.0);
+        CHECK_FALSE(stage(name)["reason"].get<std::string>().empty());
+    }
+    loaded.client.call("probes.add", {{"probe", probe("gauge", kGauge)}});
+    loaded.client.call("record.start", {{"file", "plan.mcap"}, {"every_steps", 1}});
+    loaded.client.call("sim.step", {{"steps", 3}});
+    for (const char* name : {"probes", "frames"}) {
+        INFO(name);
+        CHECK(stage(name)["active"].get<bool>());
+        CHECK(stage(name)["seconds"].get<double>() > 0.0);
+    }
+    CHECK(loaded.client.call("sim.status")["strategy"].get<std::string>().find("precision") != std::string::npos);
+}
+
 TEST_CASE("Probes.ComeAndGoBetweenSteps") {
     Loaded loaded(pond());
     loaded.client.call("sim.step", {{"steps", 5}});

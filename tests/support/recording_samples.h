@@ -30,7 +30,8 @@ struct TemporaryFolder {
 };
 
 inline const proto::RecordingMetadata kSampleMetadata{R"({"headrace_scene":1,"name":"sample"})",
-                                                      R"([{"name":"panel"}])", "0123456789abcdef", "headraced 0.0.0"};
+                                                      R"([{"name":"panel"}])", "0123456789abcdef", "headraced 0.0.0",
+                                                      "clusters of 4 x 4"};
 
 inline proto::Event sample_event(std::uint64_t seq, double time) {
     proto::Event event;

@@ -46,7 +46,7 @@ int main(int count, char** arguments) {
     options.overwrite = true;
     if (count > 2 && std::string(arguments[2]) == "zstd") options.compression = proto::Compression::zstd;
     const proto::RecordingMetadata metadata{R"({"headrace_scene":1,"name":"sample"})", "[]", "0123456789abcdef",
-                                            "headraced sample"};
+                                            "headraced sample", ""};
     auto writer = proto::RecordingWriter::create(arguments[1], metadata, options);
     if (!writer) return fail(writer.error());
     if (auto status = write_all(**writer); !status) return fail(status.error());

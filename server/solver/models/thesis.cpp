@@ -83,6 +83,9 @@ class Thesis final : public Model {
         return std::nullopt;
     }
 
+    std::string strategy() const override {
+        return "candidates of a cell side by side, double precision, " + std::string(isa_name(isa_));
+    }
     std::vector<Stage> plan(const Surroundings& surroundings) const override;
 
     std::optional<std::string> refuse_object(const CollisionObject& object) const override {
@@ -245,8 +248,8 @@ std::vector<Stage> Thesis::plan(const Surroundings& surroundings) const {
     const bool has_objects = !surroundings.objects.empty();
     const auto skipped = [](const char* name, const char* why) { return Stage{name, false, why, 0.0}; };
     return {
-        {"neighbours", true, dimensions_ == 3 ? "cells in 3D" : "cells in 2D", seconds_[kSort]},
-        {"density", true, "sum over neighbours, " + std::string(isa_name(isa_)), seconds_[kDensity]},
+        {"neighbours", true, strategy() + (dimensions_ == 3 ? "; cells in 3D" : "; cells in 2D"), seconds_[kSort]},
+        {"density", true, "sum over neighbours", seconds_[kDensity]},
         {"pressure", true, "state equation", seconds_[kPressure]},
         {"pressure_force", true, parameters_.pressure_form == PressureForm::mean ? "mean form" : "symmetric form",
          seconds_[kForces]},

@@ -45,6 +45,7 @@ TEST_CASE("Recording.RoundTripKeepsEverything") {
     CHECK(summary.metadata.objects_json == kSampleMetadata.objects_json);
     CHECK(summary.metadata.session == kSampleMetadata.session);
     CHECK(summary.metadata.program == kSampleMetadata.program);
+    CHECK(summary.metadata.strategy == kSampleMetadata.strategy);
     REQUIRE((*reader)->events().size() == 2);
     CHECK((*reader)->events()[0].seq == 1);
     CHECK((*reader)->events()[1].message == sample_event(2, 0.03).message);

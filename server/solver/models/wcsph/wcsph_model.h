@@ -23,7 +23,22 @@
 
 namespace headrace::solver {
 
-enum WcsphStage { kNeighbours, kGeometry, kSlow, kContinuity, kWalls, kPressure, kAdvance, kCheck, kStageCount };
+enum WcsphStage {
+    kNeighbours,
+    kGeometry,
+    kShifting,
+    kGravity,
+    kBodyForce,
+    kViscosity,
+    kTension,
+    kContinuity,
+    kWalls,
+    kWallMotion,
+    kPressure,
+    kAdvance,
+    kCheck,
+    kStageCount
+};
 
 // Colour gradient times support from which the thesis's particles are surface: 7.065/m 0.0457 m.
 inline constexpr double kThesisThreshold = 0.3229;
@@ -59,8 +74,7 @@ class Wcsph final : public Model {
     ParameterMap parameters() const override;
     std::optional<ParameterError> set_parameters(const ParameterMap& values) override;
     std::vector<Stage> plan(const Surroundings& surroundings) const override;
-    std::string neighbours_reason() const;
-    std::string walls_reason() const;
+    std::string strategy() const override;
     std::optional<std::string> refuse_object(const CollisionObject&) const override { return std::nullopt; }
     std::optional<std::string> refuse_domain(const Domain& domain) const override;
     std::optional<std::string> refuse_objects(std::span<const CollisionObject> objects, const Domain& domain,
@@ -98,6 +112,7 @@ class Wcsph final : public Model {
     }
     // Fourtakas takes still water for granted: wrong in free fall, and better than Antuono where none is possible.
     DensityDiffusion diffusion() const {
+        if (p_.density_diffusion_factor <= 0.0) return DensityDiffusion::none;
         switch (p_.density_diffusion) {
             case DiffusionForm::none:
                 return DensityDiffusion::none;
@@ -112,6 +127,7 @@ class Wcsph final : public Model {
         }
         return p_.free_surface ? DensityDiffusion::antuono : DensityDiffusion::fourtakas;
     }
+    bool has_shifting() const { return p_.shifting && p_.shifting_factor > 0.0 && p_.shifting_limit > 0.0; }
     bool is_morris() const {
         return p_.viscosity_form == ViscosityForm::morris ||
                (p_.viscosity_form == ViscosityForm::automatic && !p_.free_surface);
@@ -173,6 +189,7 @@ class Wcsph final : public Model {
     void compute_geometry(Particles& particles, bool shifts);
     void apply_shift(Particles& particles, double share);
     void compute_slow_forces(Particles& particles, const Surroundings& surroundings);
+    void add_body_force(const Particles& particles, const Surroundings& surroundings);
     void compute_tension(Particles& particles, const Surroundings& surroundings);
     void look_ahead(const Particles& particles);
     void compute_state(Particles& particles, double dt, double drift);
@@ -194,6 +211,7 @@ class Wcsph final : public Model {
     ClusterOrder order_;
     WallField walls_;
     std::unique_ptr<PairNeighbours> neighbours_;
+    std::string isa_;           // of the pair loops
     bool has_lists_{false};     // in the order of now
     bool is_first_list_{true};  // of these neighbours
     SightLines among_fluid_, fluid_to_wall_, wall_to_fluid_;

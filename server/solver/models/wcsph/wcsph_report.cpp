@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
@@ -83,35 +84,86 @@ std::optional<std::string> Wcsph::refuse_objects(std::span<const CollisionObject
     return std::nullopt;
 }
 
-std::string Wcsph::neighbours_reason() const {
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "clusters of %zu, lists reused while they cover all pairs: sorted %llu times so far, %.0f listed a "
-                  "particle; %s precision; %llu coincident pairs moved apart so far",
-                  kClusterSize, static_cast<unsigned long long>(sorts_), neighbours_->neighbours_per_particle(),
-                  neighbours_->arithmetic() == Arithmetic::double_precision ? "double" : "single",
-                  static_cast<unsigned long long>(separated_));
+std::string Wcsph::strategy() const {
+    const char* const precision =
+        neighbours_->arithmetic() == Arithmetic::double_precision ? "double precision" : "single precision";
+    return "clusters of 4 x 4, " + std::string(precision) + ", " + isa_;
+}
+
+namespace {
+
+std::string text_of(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string text_of(const char* format, ...) {
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
     return text;
 }
 
-std::string Wcsph::walls_reason() const {
-    if (walls_.is_empty()) return "no objects";
-    return "pressure and place of " + std::to_string(walls_.size()) + " wall particles; " + std::to_string(put_back_) +
-           " fluid particles put back on a surface so far";
+const char* name_of(DensityDiffusion form) {
+    switch (form) {
+        case DensityDiffusion::molteni_colagrossi:
+            return "molteni_colagrossi";
+        case DensityDiffusion::fourtakas:
+            return "fourtakas";
+        case DensityDiffusion::antuono:
+            return "antuono";
+        case DensityDiffusion::none:
+            break;
+    }
+    return "none";
 }
 
-std::vector<Stage> Wcsph::plan(const Surroundings&) const {
-    return {{"neighbours", true, neighbours_reason(), seconds_[kNeighbours]},
-            {"geometry", true, "moment matrices, free surface, shift", seconds_[kGeometry]},
-            {"slow_forces", true,
-             p_.surface_tension > 0.0 ? "gravity, body force, viscosity, surface tension"
-                                      : "gravity, body force, viscosity; no surface tension: the coefficient is 0",
-             seconds_[kSlow]},
-            {"continuity", true, "density", seconds_[kContinuity]},
-            {"walls", !walls_.is_empty(), walls_reason(), seconds_[kWalls]},
-            {"pressure_force", true, "", seconds_[kPressure]},
-            {"advance", true, "kick, drift, state equation", seconds_[kAdvance]},
-            {"check", true, "", seconds_[kCheck]}};
+}  // namespace
+
+// A stage that is fused with another says so: its time is counted there.
+std::vector<Stage> Wcsph::plan(const Surroundings& surroundings) const {
+    std::vector<Stage> stages;
+    // Done or skipped, and why.
+    const auto add = [&](const char* name, bool is_active, std::string done, const char* skipped, double seconds) {
+        stages.push_back({name, is_active, is_active ? std::move(done) : skipped, seconds});
+    };
+    const bool has_walls = !walls_.is_empty();
+    const char* const no_walls = "no objects";
+    add("neighbours", true,
+        strategy() +
+            text_of("; lists reach %.2g spacings beyond the support and serve while they cover all pairs: "
+                    "sorted %llu times so far, %.0f listed a particle; %llu coincident pairs moved apart so far",
+                    skin(), static_cast<unsigned long long>(sorts_), neighbours_->neighbours_per_particle(),
+                    static_cast<unsigned long long>(separated_)),
+        "", seconds_[kNeighbours]);
+    add("geometry", true, "moment matrices, free surface", "", seconds_[kGeometry]);
+    add("shifting", has_shifting(), "sums timed with geometry, one loop",
+        p_.shifting ? "shifting_factor or shifting_limit is 0" : "shifting is false", seconds_[kShifting]);
+    add("gravity", true, p_.gravity != Vec3{} ? "acceleration" : "vector is 0: clears the sum of forces", "",
+        seconds_[kGravity]);
+    add("body_force", surroundings.body_force != nullptr, "of the scene, at the middle of the step",
+        "the scene has none", seconds_[kBodyForce]);
+    add("viscosity", p_.viscosity > 0.0, is_morris() ? "morris form" : "monaghan_gingold form", "coefficient is 0",
+        seconds_[kViscosity]);
+    add("surface_tension", p_.surface_tension > 0.0,
+        p_.tension_form == TensionForm::continuum ? "continuum form" : "thesis form", "coefficient is 0",
+        seconds_[kTension]);
+    add("wall_motion", walls_.has_moving(), "places of moving wall particles", has_walls ? "no object moves" : no_walls,
+        seconds_[kWallMotion]);
+    add("continuity", true, "rate of the density", "", seconds_[kContinuity]);
+    add("density_diffusion", diffusion() != DensityDiffusion::none,
+        std::string(name_of(diffusion())) + " form; timed with continuity, one loop",
+        p_.density_diffusion == DiffusionForm::none ? "form is none" : "factor is 0", 0.0);
+    add("walls", has_walls,
+        "pressure of " + std::to_string(walls_.size()) + " wall particles; " + std::to_string(put_back_) +
+            " fluid particles put back on a surface so far",
+        no_walls, seconds_[kWalls]);
+    add("pressure_force", true, is_adjoint() ? "adjoint form" : "difference form", "", seconds_[kPressure]);
+    add("artificial_viscosity", artificial_viscosity() != 0.0, "timed with pressure_force, one loop",
+        p_.artificial_viscosity > 0.0 ? "the fluid's own viscosity does it all" : "coefficient is 0", 0.0);
+    add("advance", true, "kick, drift, state equation", "", seconds_[kAdvance]);
+    add("energies", energies_.is_on(), "a probe follows them; timed with the other stages", "no probe follows them",
+        0.0);
+    add("check", true, "bad numbers, health, next step", "", seconds_[kCheck]);
+    return stages;
 }
 
 // ---- what the model tells about itself ------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #include "server/solver/models/wcsph/coincident.h"
 #include "server/solver/models/wcsph/sound_speed.h"
 #include "server/solver/models/wcsph/wcsph_model.h"
+#include "server/solver/pairs/instruction_sets.h"
 #include "server/solver/parallel.h"
 
 namespace headrace::solver {
@@ -115,6 +116,7 @@ void Wcsph::make_sums() {
     has_lists_ = false;
     is_first_list_ = true;
     sums_ = make_wcsph_sums({dimensions_, p_.kernel, support_}, *neighbours_);
+    isa_ = instruction_set();
     set_flat_surface();
 }
 
@@ -164,41 +166,45 @@ void Wcsph::apply_shift(Particles& particles, double share) {
 void Wcsph::compute_slow_forces(Particles& particles, const Surroundings& surroundings) {
     const bool is_gravity_all =
         surroundings.body_force == nullptr && p_.viscosity == 0.0 && p_.surface_tension == 0.0 && !energies_.is_on();
-    for (int k = 0; k < dimensions_; ++k) {
-        if (is_gravity_all)
-            std::vector<double>().swap(state_.a_slow[k]);
-        else
-            state_.a_slow[k].assign(particles.size(), p_.gravity[k]);
-    }
-    if (surroundings.body_force != nullptr) {
-        // At the middle of the step: held at its start, a spring would gain energy.
-        const double half = 0.5 * next_.dt;
-        midpoint_.dimensions = dimensions_;
-        midpoint_.id.resize(particles.size());
+    timed(kGravity, [&] {
         for (int k = 0; k < dimensions_; ++k) {
-            midpoint_.x[k].resize(particles.size());
-            midpoint_.v[k].resize(particles.size());
-            parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    midpoint_.v[k][i] = particles.v[k][i];
-                    midpoint_.x[k][i] = particles.x[k][i] + half * particles.v[k][i];
-                }
-            });
+            if (is_gravity_all)
+                std::vector<double>().swap(state_.a_slow[k]);
+            else
+                state_.a_slow[k].assign(particles.size(), p_.gravity[k]);
         }
-        (*surroundings.body_force)(surroundings.time + half, midpoint_, state_.a_slow);
-    }
+    });
+    if (surroundings.body_force != nullptr) timed(kBodyForce, [&] { add_body_force(particles, surroundings); });
     if (energies_.is_on()) energies_.note_body_force(state_.a_slow, energy_setting(surroundings), dimensions_);
     if (p_.viscosity > 0.0) {
-        sums_->viscosity(data(particles), is_morris(), viscosity_options());
+        timed(kViscosity, [&] { sums_->viscosity(data(particles), is_morris(), viscosity_options()); });
         if (energies_.is_on()) {
             energies_.note_viscosity(state_.a_slow, dimensions_);
             energies_.note_wall_viscosity(wall_power(particles, surroundings).viscosity);
         }
     }
     if (p_.surface_tension > 0.0) {
-        compute_tension(particles, surroundings);
+        timed(kTension, [&] { compute_tension(particles, surroundings); });
         if (energies_.is_on()) energies_.note_tension(state_.a_slow, dimensions_);
     }
+}
+
+// At the middle of the step: held at its start, a spring would gain energy.
+void Wcsph::add_body_force(const Particles& particles, const Surroundings& surroundings) {
+    const double half = 0.5 * next_.dt;
+    midpoint_.dimensions = dimensions_;
+    midpoint_.id.resize(particles.size());
+    for (int k = 0; k < dimensions_; ++k) {
+        midpoint_.x[k].resize(particles.size());
+        midpoint_.v[k].resize(particles.size());
+        parallel_for(particles.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+            for (std::size_t i = begin; i < end; ++i) {
+                midpoint_.v[k][i] = particles.v[k][i];
+                midpoint_.x[k][i] = particles.x[k][i] + half * particles.v[k][i];
+            }
+        });
+    }
+    (*surroundings.body_force)(surroundings.time + half, midpoint_, state_.a_slow);
 }
 
 // On the positions that the step's force stands for: held at its start, the short capillary waves would gain energy.
@@ -304,7 +310,7 @@ void Wcsph::compute_pressure(Particles& particles, const Surroundings& surroundi
 void Wcsph::acoustic_step(Particles& particles, const Surroundings& surroundings, double t, double dt) {
     if (energies_.is_on()) energies_.count_kick(particles, 0.5 * dt);
     timed(kAdvance, [&] { kick_drift(particles, 0.5 * dt, 0.5 * dt); });
-    if (walls_.has_moving()) timed(kWalls, [&] { place_walls(surroundings, t + 0.5 * dt, false); });
+    if (walls_.has_moving()) timed(kWallMotion, [&] { place_walls(surroundings, t + 0.5 * dt, false); });
     find_neighbours(particles, surroundings);
     timed(kContinuity, [&] {
         ContinuityOptions options;
@@ -319,7 +325,7 @@ void Wcsph::acoustic_step(Particles& particles, const Surroundings& surroundings
     });
     timed(kAdvance, [&] { compute_state(particles, dt, 0.5 * dt); });
     if (energies_.is_on()) energies_.count_diffusion(particles, state_, energy_setting(surroundings), dt);
-    if (walls_.has_moving()) timed(kWalls, [&] { place_walls(surroundings, t + dt, false); });
+    if (walls_.has_moving()) timed(kWallMotion, [&] { place_walls(surroundings, t + dt, false); });
     compute_pressure_forces(particles, surroundings);
     if (energies_.is_on()) energies_.count_kick(particles, 0.5 * dt);
     timed(kAdvance, [&] { kick_drift(particles, 0.5 * dt, 0.0); });
@@ -331,24 +337,25 @@ StepReport Wcsph::step(Particles& particles, const Surroundings& surroundings) {
     const double dt = next_.dt, t = surroundings.time;
     find_neighbours(particles, surroundings);
     if (walls_.thin_walls() != nullptr) timed(kNeighbours, [&] { neighbours_->refresh_visibility(); });
-    const bool shifts = p_.shifting && max_speed_ > 0.0;
+    const bool shifts = has_shifting() && max_speed_ > 0.0;
     timed(kGeometry, [&] { compute_geometry(particles, shifts); });
-    timed(kSlow, [&] { compute_slow_forces(particles, surroundings); });
+    compute_slow_forces(particles, surroundings);
     if (energies_.is_on() && !energies_.has_started()) start_energies(particles, surroundings);
     const double part = dt / next_.acoustic_steps;
     for (int k = 0; k < next_.acoustic_steps; ++k) {
         artificial_weight_ = artificial_weight(k);
         acoustic_step(particles, surroundings, t + k * part, part);
         if (!shifts) continue;
-        timed(kAdvance, [&] {
+        timed(kShifting, [&] {
             count_loss(particles, surroundings, [&] { apply_shift(particles, 1.0 / next_.acoustic_steps); });
         });
     }
-    timed(kWalls, [&] {
-        std::uint64_t count = 0;
-        count_loss(particles, surroundings, [&] { count = walls_.hold(particles, *neighbours_, dt); });
-        put_back_ += count;
-    });
+    if (!walls_.is_empty())
+        timed(kWalls, [&] {
+            std::uint64_t count = 0;
+            count_loss(particles, surroundings, [&] { count = walls_.hold(particles, *neighbours_, dt); });
+            put_back_ += count;
+        });
     return finish(particles, surroundings, dt);
 }
 

@@ -51,6 +51,7 @@ class StillModel final : public solver::Model {
     const std::vector<solver::ParameterInfo>& parameter_table() const override { return table_; }
     solver::ParameterMap parameters() const override { return {}; }
     std::optional<solver::ParameterError> set_parameters(const solver::ParameterMap&) override { return {}; }
+    std::string strategy() const override { return "none"; }
     std::vector<solver::Stage> plan(const solver::Surroundings&) const override { return {}; }
     std::optional<std::string> refuse_object(const solver::CollisionObject&) const override { return {}; }
     std::optional<std::string> refuse_domain(const solver::Domain&) const override { return {}; }
