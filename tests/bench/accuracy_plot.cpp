@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 
 #include "tests/bench/accuracy_report.h"
+#include "tests/bench/gnuplot.h"
 #include "tests/validation/support/case.h"
 
 namespace headrace::bench {
@@ -170,13 +170,6 @@ const char* kHead =
     "set grid xtics ytics mxtics mytics lc rgb '#b0b0b0' lw 1, lc rgb '#e0e0e0' lw 1\n"
     "set xlabel 'wall time [s], one thread'\n";
 
-bool run_gnuplot(const std::string& commands) {
-    std::FILE* pipe = popen("gnuplot", "w");
-    if (!pipe) return false;
-    std::fputs(commands.c_str(), pipe);
-    return pclose(pipe) == 0;
-}
-
 }  // namespace
 
 bool draw_diagrams(const std::vector<AccuracyRow>& rows, const std::string& folder) {
@@ -186,10 +179,7 @@ bool draw_diagrams(const std::vector<AccuracyRow>& rows, const std::string& fold
         if (one.ladder.empty() || find_lines(of_case).empty()) continue;
         const std::string commands = "set terminal pngcairo size 1100,700 font 'sans,11'\nset output '" + folder + "/" +
                                      one.name + ".png'\n" + kHead + diagram("d", one, of_case, false);
-        if (!run_gnuplot(commands)) {
-            std::cerr << "headrace_bench: gnuplot could not draw " << one.name << '\n';
-            all_drawn = false;
-        }
+        all_drawn = run_gnuplot(commands, one.name) && all_drawn;
     }
     std::string overview;
     int panels = 0;
@@ -200,8 +190,9 @@ bool draw_diagrams(const std::vector<AccuracyRow>& rows, const std::string& fold
     }
     if (panels > 0)
         all_drawn = run_gnuplot("set terminal pngcairo size 1650,1000 font 'sans,11'\nset output '" + folder +
-                                "/overview.png'\n" + kHead + "set multiplot layout 2,3\n" + overview + legend() +
-                                "unset multiplot\n") &&
+                                    "/overview.png'\n" + kHead + "set multiplot layout 2,3\n" + overview + legend() +
+                                    "unset multiplot\n",
+                                "the overview") &&
                     all_drawn;
     return all_drawn;
 }

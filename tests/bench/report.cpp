@@ -1,22 +1,8 @@
 #include "tests/bench/report.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include "tests/bench/text.h"
 
 namespace headrace::bench {
-
-namespace {
-
-__attribute__((format(printf, 1, 2))) std::string text_of(const char* format, ...) {
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return text;
-}
-
-}  // namespace
 
 std::string table_head() {
     return text_of("%-22s %9s %10s %7s %10s %10s %10s %10s %10s %8s  %s", "case", "N", "neighbours", "threads",

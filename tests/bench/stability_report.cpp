@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <iostream>
+
+#include "tests/bench/gnuplot.h"
+#include "tests/bench/text.h"
 
 namespace headrace::bench {
 
@@ -12,12 +13,6 @@ namespace {
 using stability::Criterion;
 using stability::Outcome;
 using stability::Verdict;
-
-std::string text_of(const char* format, double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 
 struct Row {
     std::string name;
@@ -107,12 +102,7 @@ bool draw_stability(const std::vector<Outcome>& outcomes, const std::string& fil
         }
     }
     commands += "plot NaN notitle\n";
-    std::FILE* pipe = popen("gnuplot", "w");
-    if (!pipe) return false;
-    std::fputs(commands.c_str(), pipe);
-    const bool is_drawn = pclose(pipe) == 0;
-    if (!is_drawn) std::cerr << "headrace_bench: gnuplot could not draw " << file << '\n';
-    return is_drawn;
+    return run_gnuplot(commands, file);
 }
 
 }  // namespace headrace::bench

@@ -2,27 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <set>
 #include <utility>
 
+#include "tests/bench/gnuplot.h"
+#include "tests/bench/text.h"
+
 namespace headrace::bench {
 
 namespace {
-
-__attribute__((format(printf, 1, 2))) std::string text_of(const char* format, ...) {
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return text;
-}
 
 const char* const kCase = "jittered_block";
 
@@ -81,15 +73,6 @@ class Figure {
     std::string data_, plots_, plot_;
     int count_{};
 };
-
-bool run_gnuplot(const std::string& commands, const std::string& file) {
-    std::FILE* pipe = popen("gnuplot", "w");
-    if (!pipe) return false;
-    std::fputs(commands.c_str(), pipe);
-    const bool is_drawn = pclose(pipe) == 0;
-    if (!is_drawn) std::cerr << "headrace_bench: gnuplot could not draw " << file << '\n';
-    return is_drawn;
-}
 
 // One line of the diagram over particles.
 struct Look {
@@ -229,10 +212,7 @@ std::vector<StrategyRow> read_strategies_csv(const std::string& path) {
 
 bool draw_strategies(const std::vector<StrategyRow>& rows, const std::string& folder) {
     if (rows.empty()) return true;
-    if (std::system("command -v gnuplot > /dev/null 2>&1") != 0) {
-        std::cout << "gnuplot is absent: no diagrams\n";
-        return true;
-    }
+    if (!has_gnuplot()) return true;
     const std::vector<Panel> panels = find_panels(rows);
     int most_threads = 1;
     solver::Isa best{};
