@@ -5,31 +5,37 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 
 #include "tests/bench/speed_cases.h"
 #include "tests/bench/speed_compare.h"
 #include "tests/bench/speed_growth.h"
+#include "tests/bench/speed_tables.h"
 
 namespace headrace::bench {
 
 namespace {
 
 const std::vector<std::string> kCases{
-    "plain_3d", "plain_2d", "wcsph_dam_break_3d", "wcsph_dam_break_2d", "thesis_dam_break_3d", "thesis_dam_break_2d"};
+    "plain_3d",           "plain_3d_jittered",   "plain_2d",           "plain_2d_jittered", "wcsph_dam_break_3d",
+    "wcsph_dam_break_2d", "thesis_dam_break_3d", "thesis_dam_break_2d"};
 const std::vector<std::string> kOnRequest{"growth_plain_3d", "growth_wcsph_3d"};  // gigabytes, minutes
-constexpr std::size_t kLarge = 300000;  // from here on only the clusters, and fewer steps
+constexpr std::size_t kLarge = 300000;  // from here on fewer steps of flow and, unless asked for, only the clusters
+const std::string kResults = std::string(HEADRACE_SOURCE_DIR) + "/tests/bench/results";
 
 struct Options {
     std::vector<std::string> cases{kCases};
     std::vector<std::size_t> particles{10000, 64000, 1000000};
     std::vector<std::size_t> growth{100000, 1000000, 10000000};
-    std::vector<double> supports{2.4, 3.0, 4.0};
-    std::vector<std::string> strategies{"clusters", "buffer", "broadcast"};
+    std::vector<double> supports{2.4, 2.6, 3.0, 4.0};
+    std::vector<std::string> strategies;  // none: all
     SpeedPlan plan;
     bool keep_faster{false};
     bool all_sets{false};
-    std::string folder{std::string(HEADRACE_SOURCE_DIR) + "/tests/bench/results"};
+    bool only_tables{false};
+    std::string folder{kResults};
     std::string other;  // binary to compare with
+    int rounds{3};
 };
 
 void define_options(CLI::App& app, Options& options) {
@@ -48,10 +54,10 @@ void define_options(CLI::App& app, Options& options) {
         ->delimiter(',')
         ->check(CLI::Range(1.5, 6.0))
         ->capture_default_str();
-    app.add_option("--strategy", options.strategies, "Strategies of the plain cases")
+    app.add_option("--strategy", options.strategies,
+                   "Strategies of the plain cases; none: clusters, and below 300,000 particles buffer and broadcast")
         ->delimiter(',')
-        ->check(CLI::IsMember({"clusters", "buffer", "broadcast"}))
-        ->capture_default_str();
+        ->check(CLI::IsMember({"clusters", "buffer", "broadcast"}));
     app.add_option("--threads", options.plan.threads, "Thread counts, taking turns")
         ->delimiter(',')
         ->check(CLI::Range(1, 1024))
@@ -68,29 +74,37 @@ void define_options(CLI::App& app, Options& options) {
     app.add_flag("--quick", options.plan.is_quick, "200 steps of flow; dam breaks for 0.02 s");
     app.add_flag("--all-sets", options.all_sets, "Clusters in every instruction set, in all plain cases");
     app.add_flag("--keep-faster", options.keep_faster, "Keep the table's line where it is faster");
+    app.add_option("--set", options.plan.settings, "Parameter of the models in the dam breaks, name=value; several")
+        ->allow_extra_args(false);
     app.add_option("--out", options.folder, "Folder of speed.csv")->capture_default_str();
-    app.add_option("--compare", options.other, "Another build's headrace_bench: both by turns, ratios")
+    app.add_flag("--readme", options.only_tables, "Only make the tables of README.md and speed.md from speed.csv");
+    app.add_option("--compare", options.other,
+                   "Another build's headrace_bench: both by turns, smallest, median and largest ratio of this to it")
         ->check(CLI::ExistingFile);
+    app.add_option("--rounds", options.rounds, "Turns of each build in a comparison")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
 }
 
-bool has(const Options& options, PairStrategy strategy) {
+bool has(const Options& options, PairStrategy strategy, bool is_large) {
+    if (options.strategies.empty()) return strategy == PairStrategy::clusters || !is_large;
     return std::count(options.strategies.begin(), options.strategies.end(), pair_strategy_name(strategy)) > 0;
 }
 
-proto::Status run_plain(int dimensions, const Options& options, const SpeedSink& sink) {
+proto::Status run_plain(int dimensions, bool is_jittered, const Options& options, const SpeedSink& sink) {
     for (const std::size_t particles : options.particles) {
         for (const double support : options.supports) {
-            PlainCase one{dimensions, support, particles, {}, false};
+            PlainCase one{dimensions, support, particles, {}, false, is_jittered};
             const bool is_large = particles >= kLarge;
             for (const PairStrategy strategy :
                  {PairStrategy::clusters, PairStrategy::buffer, PairStrategy::broadcast}) {
-                if (has(options, strategy) && (strategy == PairStrategy::clusters || !is_large))
-                    one.strategies.push_back(strategy);
+                if (has(options, strategy, is_large)) one.strategies.push_back(strategy);
             }
-            one.all_instruction_sets =
-                options.all_sets || (dimensions == 3 && support == 3.0 && particles == options.particles.front());
+            one.all_instruction_sets = options.all_sets || (dimensions == 3 && !is_jittered && support == 3.0 &&
+                                                            particles == options.particles.front());
             SpeedPlan plan = options.plan;
             if (plan.is_quick || is_large) plan.warmup = std::min(plan.warmup, 200);
+            if (is_large) plan.steps = std::min(plan.steps, 20);
             if (auto status = time_plain(one, plan, sink); !status) return status;
         }
     }
@@ -100,9 +114,23 @@ proto::Status run_plain(int dimensions, const Options& options, const SpeedSink&
 proto::Status run_case(const std::string& name, const Options& options, const SpeedSink& sink) {
     if (name == "growth_plain_3d") return time_plain_growth(options.growth, options.plan, sink);
     if (name == "growth_wcsph_3d") return time_wcsph_growth(options.growth, options.plan, sink);
-    const int dimensions = name.ends_with("2d") ? 2 : 3;
-    if (name.starts_with("plain")) return run_plain(dimensions, options, sink);
+    const int dimensions = name.find("2d") != std::string::npos ? 2 : 3;
+    if (name.starts_with("plain")) return run_plain(dimensions, name.ends_with("jittered"), options, sink);
     return time_dam_break(name.substr(0, name.find('_')), dimensions, options.plan, sink);
+}
+
+// README.md and speed.md as the measurements say. The README is that of the repository whose results they are.
+bool write_tables(const std::vector<SpeedRow>& rows) {
+    const std::string readme = std::string(HEADRACE_SOURCE_DIR) + "/README.md";
+    std::ifstream file(readme);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const auto fresh = with_speed_tables(text, rows);
+    if (!fresh) {
+        std::cerr << "headrace_bench: " << readme << " has no place for the tables\n";
+        return false;
+    }
+    return static_cast<bool>(std::ofstream(readme) << *fresh) &&
+           static_cast<bool>(std::ofstream(kResults + "/speed.md") << speed_document(rows));
 }
 
 }  // namespace
@@ -114,15 +142,16 @@ int run_speed(int argc, char** argv) {
         "model at its defaults, t = 0.2 to 0.4 s; growth_* (on request): time and peak memory\n"
         "per particle from 10^5 to 10^7. Beside each figure stands what fused multiply-adds the machine "
         "gave.\n"
-        "Writes speed.csv; lines of other cases stay."};
+        "Writes speed.csv, in which lines of other cases stay, and from it speed.md and the tables of README.md."};
     Options options;
     define_options(app, options);
     CLI11_PARSE(app, argc, argv);
-    if (!options.other.empty()) return compare_builds(options.other, {argv + 1, argv + argc});
+    if (!options.other.empty()) return compare_builds(options.other, options.rounds, {argv + 1, argv + argc});
 
     std::filesystem::create_directories(options.folder);
     const std::string table = options.folder + "/speed.csv";
     std::vector<SpeedRow> rows = read_speed_csv(table);
+    if (options.only_tables) return write_tables(rows) ? 0 : 2;
     std::cout << speed_table_head() << '\n';
     bool is_written = true;
     const auto sink = [&](const SpeedRow& row) {
@@ -141,6 +170,7 @@ int run_speed(int argc, char** argv) {
             return 2;
         }
     }
+    if (options.folder == kResults && !write_tables(rows)) return 2;
     return all_ran ? 0 : 1;
 }
 

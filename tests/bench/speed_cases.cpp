@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 
 #include "server/scene/run.h"
+#include "server/solver/models/registry.h"
 #include "server/solver/pairs/instruction_sets.h"
 #include "tests/bench/neighbour_count.h"
 #include "tests/bench/peak_memory.h"
@@ -82,6 +84,7 @@ void time_window(Contest& one, int steps) {
 SpeedRow describe(const PlainCase& one, const PlainFluid& fluid) {
     SpeedRow row;
     row.name = one.dimensions == 2 ? "plain_2d" : "plain_3d";
+    if (one.is_jittered) row.name += "_jittered";
     row.model = "plain";
     row.dimensions = one.dimensions;
     row.particles = fluid.size();
@@ -122,6 +125,33 @@ proto::Status hold_contests(const PlainFluid& developed, double bytes, SpeedRow 
 
 // ---- dam breaks -----------------------------------------------------------------------------------------------------
 
+// "name=value" as the model's table says what the value is; a number, true or false, or a word.
+proto::Result<proto::Parameters> read_settings(const std::string& model, const proto::SceneDesc& scene,
+                                               const std::vector<std::string>& settings) {
+    proto::Parameters parameters;
+    const auto table = solver::model_parameter_table(model, scene.dimensions, scene.spacing);
+    for (const std::string& setting : settings) {
+        const std::size_t sign = setting.find('=');
+        const std::string name = setting.substr(0, sign),
+                          value = sign == std::string::npos ? "" : setting.substr(sign + 1);
+        const auto info = std::find_if(table.begin(), table.end(), [&](const auto& one) { return one.name == name; });
+        if (info == table.end() || value.empty()) return faulted("no parameter of " + model + " is set by " + setting);
+        if (std::holds_alternative<double>(info->default_value)) {
+            char* end = nullptr;
+            parameters[name] = std::strtod(value.c_str(), &end);
+            if (*end != '\0') return faulted(setting + ": not a number");
+        } else if (std::holds_alternative<bool>(info->default_value)) {
+            if (value != "true" && value != "false") return faulted(setting + ": neither true nor false");
+            parameters[name] = value == "true";
+        } else if (std::holds_alternative<std::string>(info->default_value)) {
+            parameters[name] = value;
+        } else {
+            return faulted(setting + ": vectors cannot be set");
+        }
+    }
+    return parameters;
+}
+
 double number_of(const solver::Model& model, const std::string& name, double otherwise) {
     const solver::ParameterMap parameters = model.parameters();
     const auto found = parameters.find(name);
@@ -150,7 +180,8 @@ StageSeconds stages_of(const scene::Run& run) {
     for (const solver::Stage& stage : run.plan()) {
         if (stage.name == "neighbours") {
             seconds.list += stage.seconds;
-        } else if (stage.name == "advance" || stage.name == "integrate" || stage.name == "check") {
+        } else if (stage.name == "advance" || stage.name == "shifting" || stage.name == "integrate" ||
+                   stage.name == "check") {
             seconds.integrate += stage.seconds;
         } else {
             seconds.pair += stage.seconds;
@@ -228,7 +259,7 @@ proto::SceneDesc make_dam_break(const std::string& model, int dimensions) {
 proto::Status time_plain(const PlainCase& one, const SpeedPlan& plan, const SpeedSink& sink) {
     omp_set_num_threads(*std::max_element(plan.threads.begin(), plan.threads.end()));
     const PeakMemory memory;
-    PlainFluid developed = make_developed_flow(one, plan.warmup);
+    PlainFluid developed = make_developed_flow(one, one.is_jittered ? 0 : plan.warmup);
     if (!is_sound(developed)) return faulted("the plain fluid broke before it was timed");
     double bytes = 0.0;
     {
@@ -254,7 +285,11 @@ proto::Status time_dam_break(const std::string& model, int dimensions, const Spe
     constexpr double kBegin = 0.2, kEnd = 0.4;  // [s]
     omp_set_num_threads(*std::max_element(plan.threads.begin(), plan.threads.end()));
     const PeakMemory memory;
-    auto built = scene::Run::build(make_dam_break(model, dimensions));
+    proto::SceneDesc scene = make_dam_break(model, dimensions);
+    auto parameters = read_settings(model, scene, plan.settings);
+    if (!parameters) return parameters.error();
+    for (const auto& [name, value] : *parameters) scene.parameters.insert_or_assign(name, value);
+    auto built = scene::Run::build(scene);
     if (!built) return built.error();
     scene::Run& run = **built;
     DamBreakTotals ignored;
@@ -262,6 +297,7 @@ proto::Status time_dam_break(const std::string& model, int dimensions, const Spe
 
     SpeedRow row;
     row.name = model + (dimensions == 2 ? "_dam_break_2d" : "_dam_break_3d");
+    for (const std::string& setting : plan.settings) row.name += "+" + setting;
     row.model = model;
     row.strategy = model == "wcsph" ? "clusters" : "buffer";
     row.dimensions = dimensions;

@@ -18,6 +18,8 @@ struct SpeedPlan {
     int steps{100};    // per window
     int repeat{3};     // windows
     bool is_quick{false};
+    // Parameters of the models beside their defaults, "name=value": the case is named after them.
+    std::vector<std::string> settings;
 };
 
 using SpeedSink = std::function<void(const SpeedRow&)>;
@@ -28,6 +30,7 @@ struct PlainCase {
     std::size_t particles{};  // about so many: a whole cube or square
     std::vector<PairStrategy> strategies;
     bool all_instruction_sets{false};  // of the clusters, with the first of the thread counts
+    bool is_jittered{false};           // no flow before the clock starts: the lattice, jittered
 };
 
 // The strategies, thread counts and instruction sets take turns; of each the fastest window counts.

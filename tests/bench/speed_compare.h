@@ -6,8 +6,9 @@
 
 namespace headrace::bench {
 
-// Runs this program and `other` by turns with the arguments (--compare and --out are replaced) and prints how much
-// faster this one is, case by case. Returns the exit status.
-int compare_builds(const std::string& other, const std::vector<std::string>& arguments);
+// Runs this program and `other` by turns, so often each, with the arguments (--compare, --rounds and --out are left
+// out) and prints how much faster this one is, case by case: smallest, median and largest ratio of the turns. Returns
+// the exit status.
+int compare_builds(const std::string& other, int rounds, const std::vector<std::string>& arguments);
 
 }  // namespace headrace::bench

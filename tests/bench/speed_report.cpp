@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/bench/text.h"
+
 namespace headrace::bench {
 
 namespace {
@@ -13,13 +15,6 @@ namespace {
 constexpr const char* kHead =
     "case,model,strategy,dimensions,particles,support_over_dp,neighbours,threads,isa,steps,Mpsps_per_core,ns_sort,"
     "ns_list,ns_pair,ns_integrate,bytes_per_particle,fma_gflops,acoustic_steps,wall_per_simulated_s";
-
-template <class... Values>
-std::string text_of(const char* format, Values... values) {
-    char text[512];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
-}
 
 }  // namespace
 
