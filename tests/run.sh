@@ -13,8 +13,8 @@ usage: tests/run.sh [--full] [--preset NAME] [--label LABEL] [ctest arguments]
 Installs missing packages, builds, and runs the tests with ctest. Tests whose tools are not installed are reported as
 skipped.
 
-  --full          installs those tools too (VTK, jsonschema, clang-format, Node.js and its packages); then a skipped
-                  test is a failure, unless it lacks the reference data of the validation
+  --full          installs those tools too (VTK, jsonschema, clang-format, valgrind, Node.js and its packages); then a
+                  skipped test is a failure, unless it lacks the reference data of the validation
   --preset NAME   release (default), debug, asan or tsan: see CMakePresets.json
   --label LABEL   only tests with this label: unit, stability, protocol, validation, cli, script, demo
   --help          this text
@@ -52,7 +52,7 @@ case "$preset" in
 esac
 
 packages=("${headrace_build_packages[@]}" catch2 python3 python3-zmq python3-numpy)
-[ $full = no ] || packages+=(python3-vtk9 python3-jsonschema clang-format nodejs=node npm=npm)
+[ $full = no ] || packages+=(python3-vtk9 python3-jsonschema clang-format valgrind=valgrind nodejs=node npm=npm)
 install_packages "${packages[@]}"
 
 # The MCAP reader of another project judges our recordings.

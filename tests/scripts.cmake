@@ -48,6 +48,16 @@ headrace_script_test("mcap: the reference implementation reads our recordings" s
 headrace_script_test("frame: ten lines of NumPy read it" script support/check_parse_frame.py ${results}/frame_none.bin
                      NEEDS numpy FIXTURE samples)
 
+# What the plan leaves out costs nothing, by instruction counts: of a build without sanitizers, which valgrind cannot run,
+# and with the optimiser, or it takes hours.
+if(HEADRACE_BENCH AND NOT HEADRACE_SANITIZE AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  headrace_script_test("plan: what a scene does not have costs it no instruction" script bench/plan_costs.py
+                       $<TARGET_FILE:headrace_bench> --check)
+  headrace_script_test("plan: what nobody asks for costs the server no instruction" script bench/plan_costs.py
+                       $<TARGET_FILE:headrace_bench> --server $<TARGET_FILE:headraced> $<TARGET_FILE:headrace>)
+  set_tests_properties("plan: what a scene does not have costs it no instruction" PROPERTIES TIMEOUT 1800)
+endif()
+
 # The client as a user drives it. `commands` leaves recordings and converted files in ${results}/commands.
 file(GLOB cli_scripts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS cli/*.sh)
 foreach(script IN LISTS cli_scripts)

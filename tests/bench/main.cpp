@@ -6,6 +6,7 @@
 
 #include "server/solver/thread_wait.h"
 #include "tests/bench/accuracy.h"
+#include "tests/bench/count_steps.h"
 #include "tests/bench/report.h"
 #include "tests/bench/speed.h"
 #include "tests/bench/stability.h"
@@ -71,11 +72,13 @@ int main(int argc, char** argv) {
     if (argc > 1 && std::string(argv[1]) == "stability") return bench::run_stability(argc - 1, argv + 1);
     if (argc > 1 && std::string(argv[1]) == "strategies") return bench::run_strategies(argc - 1, argv + 1);
     if (argc > 1 && std::string(argv[1]) == "speed") return bench::run_speed(argc - 1, argv + 1);
+    if (argc > 1 && std::string(argv[1]) == "count-steps") return bench::run_count_steps(argc - 1, argv + 1);
     CLI::App app{
         "Times the solver over the presets. One line per case and thread count.\n"
         "`headrace_bench accuracy` measures run time against error on the validation cases, `headrace_bench\n"
         "stability` runs the scenes that try to break a model, `headrace_bench strategies` compares ways to sum\n"
-        "over pairs, `headrace_bench speed` times the pair engine and the models in developed flow: see their --help."};
+        "over pairs, `headrace_bench speed` times the pair engine and the models in developed flow, `headrace_bench\n"
+        "count-steps` steps a scene for plan_costs.py to count its instructions: see their --help."};
     Options options;
     define_options(app, options);
     CLI11_PARSE(app, argc, argv);
