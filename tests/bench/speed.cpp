@@ -1,5 +1,7 @@
 #include "tests/bench/speed.h"
 
+#include <omp.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -20,6 +22,7 @@ const std::vector<std::string> kCases{
     "plain_3d",           "plain_3d_jittered",   "plain_2d",           "plain_2d_jittered", "wcsph_dam_break_3d",
     "wcsph_dam_break_2d", "thesis_dam_break_3d", "thesis_dam_break_2d"};
 const std::vector<std::string> kOnRequest{"growth_plain_3d", "growth_wcsph_3d"};  // gigabytes, minutes
+constexpr std::size_t kForAllCores = 64000;
 constexpr std::size_t kLarge = 300000;  // from here on fewer steps of flow and, unless asked for, only the clusters
 const std::string kResults = std::string(HEADRACE_SOURCE_DIR) + "/tests/bench/results";
 
@@ -30,6 +33,7 @@ struct Options {
     std::vector<double> supports{2.4, 2.6, 3.0, 4.0};
     std::vector<std::string> strategies;  // none: all
     SpeedPlan plan;
+    std::vector<int> threads;  // none: one, and all where a case is large
     bool keep_faster{false};
     bool all_sets{false};
     bool only_tables{false};
@@ -58,10 +62,12 @@ void define_options(CLI::App& app, Options& options) {
                    "Strategies of the plain cases; none: clusters, and below 300,000 particles buffer and broadcast")
         ->delimiter(',')
         ->check(CLI::IsMember({"clusters", "buffer", "broadcast"}));
-    app.add_option("--threads", options.plan.threads, "Thread counts, taking turns")
+    app.add_option(
+           "--threads", options.threads,
+           "Thread counts, taking turns; none: 1, and as many as there are cores in the 3D dam breaks and from\n"
+           "64,000 particles on at R/dp = 3")
         ->delimiter(',')
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
+        ->check(CLI::Range(1, 1024));
     app.add_option("--warmup", options.plan.warmup, "Steps of flow before the clock starts (plain cases)")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
@@ -91,6 +97,12 @@ bool has(const Options& options, PairStrategy strategy, bool is_large) {
     return std::count(options.strategies.begin(), options.strategies.end(), pair_strategy_name(strategy)) > 0;
 }
 
+std::vector<int> choose_threads(const Options& options, bool is_for_all_cores) {
+    if (!options.threads.empty()) return options.threads;
+    const int cores = omp_get_num_procs();
+    return is_for_all_cores && cores > 1 ? std::vector<int>{1, cores} : std::vector<int>{1};
+}
+
 proto::Status run_plain(int dimensions, bool is_jittered, const Options& options, const SpeedSink& sink) {
     for (const std::size_t particles : options.particles) {
         for (const double support : options.supports) {
@@ -100,9 +112,10 @@ proto::Status run_plain(int dimensions, bool is_jittered, const Options& options
                  {PairStrategy::clusters, PairStrategy::buffer, PairStrategy::broadcast}) {
                 if (has(options, strategy, is_large)) one.strategies.push_back(strategy);
             }
-            one.all_instruction_sets = options.all_sets || (dimensions == 3 && !is_jittered && support == 3.0 &&
-                                                            particles == options.particles.front());
+            const bool is_usual = support == 3.0 && !is_jittered;
+            one.all_instruction_sets = options.all_sets || (is_usual && !is_large);
             SpeedPlan plan = options.plan;
+            plan.threads = choose_threads(options, is_usual && particles >= kForAllCores);
             if (plan.is_quick || is_large) plan.warmup = std::min(plan.warmup, 200);
             if (is_large) plan.steps = std::min(plan.steps, 20);
             if (auto status = time_plain(one, plan, sink); !status) return status;
@@ -116,7 +129,9 @@ proto::Status run_case(const std::string& name, const Options& options, const Sp
     if (name == "growth_wcsph_3d") return time_wcsph_growth(options.growth, options.plan, sink);
     const int dimensions = name.find("2d") != std::string::npos ? 2 : 3;
     if (name.starts_with("plain")) return run_plain(dimensions, name.ends_with("jittered"), options, sink);
-    return time_dam_break(name.substr(0, name.find('_')), dimensions, options.plan, sink);
+    SpeedPlan plan = options.plan;
+    plan.threads = choose_threads(options, dimensions == 3);
+    return time_dam_break(name.substr(0, name.find('_')), dimensions, plan, sink);
 }
 
 // README.md and speed.md as the measurements say. The README is that of the repository whose results they are.
