@@ -125,12 +125,12 @@ proto::Status run_plain(int dimensions, bool is_jittered, const Options& options
 }
 
 proto::Status run_case(const std::string& name, const Options& options, const SpeedSink& sink) {
-    if (name == "growth_plain_3d") return time_plain_growth(options.growth, options.plan, sink);
-    if (name == "growth_wcsph_3d") return time_wcsph_growth(options.growth, options.plan, sink);
     const int dimensions = name.find("2d") != std::string::npos ? 2 : 3;
     if (name.starts_with("plain")) return run_plain(dimensions, name.ends_with("jittered"), options, sink);
     SpeedPlan plan = options.plan;
-    plan.threads = choose_threads(options, dimensions == 3);
+    plan.threads = choose_threads(options, dimensions == 3 && !name.starts_with("growth"));
+    if (name == "growth_plain_3d") return time_plain_growth(options.growth, plan, sink);
+    if (name == "growth_wcsph_3d") return time_wcsph_growth(options.growth, plan, sink);
     return time_dam_break(name.substr(0, name.find('_')), dimensions, plan, sink);
 }
 
