@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "tests/bench/assignments.h"
 #include "tests/bench/speed_cases.h"
 #include "tests/bench/speed_compare.h"
 
@@ -27,6 +28,7 @@ struct Options {
     bool all_sets{false};
     std::string folder{std::string(HEADRACE_SOURCE_DIR) + "/tests/bench/results"};
     std::string other;  // binary to compare with
+    std::vector<std::string> assignments;
 };
 
 void define_options(CLI::App& app, Options& options) {
@@ -62,6 +64,8 @@ void define_options(CLI::App& app, Options& options) {
     app.add_flag("--quick", options.plan.is_quick, "200 steps of flow; dam breaks for 0.02 s");
     app.add_flag("--all-sets", options.all_sets, "Clusters in every instruction set, in all plain cases");
     app.add_flag("--keep-faster", options.keep_faster, "Keep the table's line where it is faster");
+    app.add_option("--set", options.assignments,
+                   "Dam breaks: parameter of the model, name=value; repeatable; the table is only printed");
     app.add_option("--out", options.folder, "Folder of speed.csv")->capture_default_str();
     app.add_option("--compare", options.other, "Another build's headrace_bench: both by turns, ratios")
         ->check(CLI::ExistingFile);
@@ -111,6 +115,10 @@ int run_speed(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     if (!options.other.empty()) return compare_builds(options.other, {argv + 1, argv + argc});
 
+    if (const auto wrong = take_assignments(options.assignments, options.plan.parameters)) {
+        std::cerr << "headrace_bench: " << *wrong << '\n';
+        return 2;
+    }
     std::filesystem::create_directories(options.folder);
     const std::string table = options.folder + "/speed.csv";
     std::vector<SpeedRow> rows = read_speed_csv(table);
@@ -118,6 +126,7 @@ int run_speed(int argc, char** argv) {
     bool is_written = true;
     const auto sink = [&](const SpeedRow& row) {
         std::cout << speed_table_line(row) << std::endl;
+        if (!options.assignments.empty()) return;  // another model than the table's
         put_row(rows, row, options.keep_faster);
         is_written = static_cast<bool>(std::ofstream(table) << speed_csv(rows));
     };

@@ -265,7 +265,9 @@ proto::Status time_dam_break(const std::string& model, int dimensions, const Spe
     omp_set_num_threads(*std::max_element(plan.threads.begin(), plan.threads.end()));
     malloc_trim(0);
     const double memory_before = resident_bytes();
-    auto built = scene::Run::build(make_dam_break(model, dimensions));
+    proto::SceneDesc scene = make_dam_break(model, dimensions);
+    for (const auto& [name, value] : plan.parameters) scene.parameters[name] = value;
+    auto built = scene::Run::build(scene);
     if (!built) return built.error();
     scene::Run& run = **built;
     DamBreakTotals ignored;

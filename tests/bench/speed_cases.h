@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/result.h"
+#include "proto/scene_desc.h"
 #include "tests/bench/speed_report.h"
 #include "tests/bench/speed_sums.h"
 
@@ -17,6 +18,7 @@ struct SpeedPlan {
     int steps{100};    // per window
     int repeat{3};     // windows
     bool is_quick{false};
+    proto::Parameters parameters;  // dam breaks: over the model's defaults
 };
 
 using SpeedSink = std::function<void(const SpeedRow&)>;
