@@ -11,12 +11,14 @@ IntegralWalls::IntegralWalls(const SectionKernel& kernel, double layer)
       kernel_(kernel),
       layers_(make_wall_layers(layer, kernel.support)),
       plane_(make_plane_profile(kernel, layers_)),
-      edge_(make_section_table(kernel, kernel.dimensions - 2)),
-      corner_(make_section_table(kernel, 0)) {}
+      edge_(make_section_table(kernel, kernel.dimensions - 2, layer)),
+      corner_(make_section_table(kernel, 0, layer)) {}
 
 void IntegralWalls::clear() {
     has_faces_ = false;
     room_ = {};
+    inner_low_ = {kNowhere, kNowhere, kNowhere};
+    inner_high_ = {-kNowhere, -kNowhere, -kNowhere};
     boxes_.clear();
     spheres_.clear();
     period_ = {};
@@ -28,6 +30,11 @@ void IntegralWalls::add_face(int axis, int side, double at, const IntegralSurfac
     if (face.exists && !is_narrower) return;
     face = {true, at, surface};
     has_faces_ = true;
+    if (side == 0) {
+        inner_low_[static_cast<std::size_t>(axis)] = at + support_;
+    } else {
+        inner_high_[static_cast<std::size_t>(axis)] = at - support_;
+    }
 }
 
 void IntegralWalls::add_sphere(const Vec3& center, double radius, bool is_container, const IntegralSurface& surface) {
@@ -142,7 +149,7 @@ class ShareSum {
     void add_box(const IntegralBox& box, const Vec3& x) {
         const SeenBox<D> seen = look_at<D>(box, x);
         if (seen.distance >= walls_.support_) return;
-        WallPart<D>& part = start_part(seen.n, box.surface);
+        WallPart<D>& part = start_part(seen.n, seen.distance, box.surface);
         of_box_ = {};
         std::array<HalfSpace, D> front;
         int fronts = 0;
@@ -167,8 +174,9 @@ class ShareSum {
         add_product(front, fronts, beyond, beyonds, seen);
         add_to_share(of_box_, 1.0);
         part.grad = part.grad_n = of_box_.grad;
-        part.M_n = of_box_.M * part.n;
-        part.viscous = of_box_.viscous;
+        part.m_n = dot<D, double>(part.n, of_box_.M * part.n);
+        part.viscous = of_box_.viscous.e;
+        part.gamma = of_box_.gamma;
     }
 
     void add_sphere(const IntegralSphere& sphere, const Vec3& x) {
@@ -181,7 +189,7 @@ class ShareSum {
         const double r = std::sqrt(r2), d = sphere.is_container ? sphere.radius - r : r - sphere.radius;
         if (d >= walls_.support_ || !(r > 0.0)) return;
         for (double& component : out) component *= (sphere.is_container ? -1.0 : 1.0) / r;
-        add_profile(sphere.profile(d), d, out, sphere.surface);
+        add_profile(sphere.profile, d, out, sphere.surface);
     }
 
   private:
@@ -192,9 +200,10 @@ class ShareSum {
         double gamma{};
     };
 
-    WallPart<D>& start_part(const std::array<double, D>& n, const IntegralSurface& surface) {
+    WallPart<D>& start_part(const std::array<double, D>& n, double distance, const IntegralSurface& surface) {
         WallPart<D>& part = share_.part[share_.count++];
         part.n = n;
+        part.distance = distance;
         part.surface = &surface;
         return part;
     }
@@ -204,35 +213,37 @@ class ShareSum {
             share_.grad[k] += sign * region.grad[k];
             share_.shifted[k] += sign * region.shifted[k];
         }
-        for (int k = 0; k < Symmetric<D>::kSize; ++k) share_.M.e[k] += sign * region.M.e[k];
-        share_.gamma += sign * region.gamma;
+        for (int k = 0; k < Symmetric<D>::kSize; ++k) share_.M[k] += sign * region.M.e[k];
     }
 
     void add_face(const HalfSpace& half, const IntegralSurface& surface) {
         std::array<double, D> n{};
         n[half.axis] = -half.sign;
-        add_profile(walls_.plane_(half.distance), half.distance, n, surface);
+        add_profile(walls_.plane_, half.distance, n, surface);
     }
 
-    void add_profile(const WallProfile& profile, double d, const std::array<double, D>& n,
+    void add_profile(const WallProfileTable& table, double d, const std::array<double, D>& n,
                      const IntegralSurface& surface) {
-        WallPart<D>& part = start_part(n, surface);
+        const WallProfile profile = table.plain(d);
+        WallPart<D>& part = start_part(n, d, surface);
+        part.m_n = profile.m_n;
         for (int k = 0; k < D; ++k) {
             part.grad_n[k] = part.grad[k] = -profile.w * n[k];
-            part.M_n[k] = profile.m_n * n[k];
             share_.grad[k] += part.grad[k];
             share_.shifted[k] -= profile.w_shifted * n[k];
+            for (int l = k; l < D; ++l) {
+                share_.M[Symmetric<D>::index(k, l)] +=
+                    (profile.m_n - profile.m_t) * n[k] * n[l] + (k == l ? profile.m_t : 0.0);
+            }
         }
+        if (!is_viscous_) return;
+        const ViscousProfile viscous = table.viscous(d);
+        part.gamma = viscous.gamma;
+        const double inv_d = 1.0 / std::max(d, least_), n_part = viscous.k_n + viscous.l_n * inv_d,
+                     t_part = viscous.k_t + viscous.l_t * inv_d;
         for (int k = 0; k < D; ++k) {
             for (int l = k; l < D; ++l)
-                share_.M(k, l) += (profile.m_n - profile.m_t) * n[k] * n[l] + (k == l ? profile.m_t : 0.0);
-        }
-        share_.gamma += profile.gamma;
-        if (!is_viscous_) return;
-        const double inv_d = 1.0 / std::max(d, least_), n_part = profile.k_n + profile.l_n * inv_d,
-                     t_part = profile.k_t + profile.l_t * inv_d;
-        for (int k = 0; k < D; ++k) {
-            for (int l = k; l < D; ++l) part.viscous(k, l) = (n_part - t_part) * n[k] * n[l] + (k == l ? t_part : 0.0);
+                part.viscous[Symmetric<D>::index(k, l)] = (n_part - t_part) * n[k] * n[l] + (k == l ? t_part : 0.0);
         }
     }
 
@@ -334,6 +345,9 @@ class ShareSum {
             share_.part[part_a].grad[k] += of_a * both.grad[k];
             share_.part[part_b].grad[k] += of_b * both.grad[k];
         }
+        if (!is_viscous_) return;
+        share_.part[part_a].gamma += of_a * both.gamma;
+        share_.part[part_b].gamma += of_b * both.gamma;
     }
 
     void add_room_corner(const std::array<HalfSpace, 3>& half, const std::array<int, 3>& parts) {
@@ -364,11 +378,12 @@ class ShareSum {
         add_to_share(all, 1.0);
         for (int k = 0; k < 3; ++k) {
             for (int axis = 0; axis < D; ++axis) share_.part[parts[k]].grad[axis] += weight_of[k] * all.grad[axis];
+            if (is_viscous_) share_.part[parts[k]].gamma += weight_of[k] * all.gamma;
         }
     }
 
     void add_viscous(int part, const Symmetric<D>& viscous, double weight) {
-        for (int k = 0; k < Symmetric<D>::kSize; ++k) share_.part[part].viscous.e[k] += weight * viscous.e[k];
+        for (int k = 0; k < Symmetric<D>::kSize; ++k) share_.part[part].viscous[k] += weight * viscous.e[k];
     }
 
     // ---- obstacles --------------------------------------------------------------------------------------------------
@@ -384,18 +399,17 @@ class ShareSum {
             for (int k = 0; k < Symmetric<D>::kSize; ++k) of_box_.viscous.e[k] += viscous.e[k];
         };
         if (count == 1) {
-            const WallProfile profile = walls_.plane_(half[0].distance);
+            const WallProfile profile = walls_.plane_.plain(half[0].distance);
             const int n = half[0].axis;
             of_box_.grad[n] += sign * half[0].sign * profile.w;
             of_box_.shifted[n] += sign * half[0].sign * profile.w_shifted;
-            of_box_.gamma += sign * profile.gamma;
-            // A half-space that is cut off lies beside the front: at the front's depth on average, not behind it.
-            const bool is_front = sign > 0.0;
-            const double k_n = profile.k_n + (is_front ? profile.l_n * inv_d : 0.0),
-                         k_t = profile.k_t + (is_front ? profile.l_t * inv_d : 0.0);
+            for (int k = 0; k < D; ++k) of_box_.M(k, k) += sign * (k == n ? profile.m_n : profile.m_t);
+            if (!is_viscous_) return;
+            const ViscousProfile viscous = walls_.plane_.viscous(half[0].distance);
+            of_box_.gamma += sign * viscous.gamma;
             for (int k = 0; k < D; ++k) {
-                of_box_.M(k, k) += sign * (k == n ? profile.m_n : profile.m_t);
-                if (is_viscous_) of_box_.viscous(k, k) += sign * (k == n ? k_n : k_t);
+                of_box_.viscous(k, k) +=
+                    sign * (k == n ? viscous.k_n + viscous.l_n * inv_d : viscous.k_t + viscous.l_t * inv_d);
             }
         } else if (count == 2) {
             const int axis = other_axis(half[0], half[1]);
@@ -433,12 +447,31 @@ class ShareSum {
 
 template <int D>
 bool IntegralWalls::is_near(const std::array<double, D>& x) const {
-    if (has_faces_) {
-        for (int k = 0; k < D; ++k) {
-            const auto& [low, high] = room_[k];
-            if ((low.exists && x[k] - low.at < support_) || (high.exists && high.at - x[k] < support_)) return true;
+    for (int k = 0; k < D; ++k) {
+        if (x[k] < inner_low_[k] || x[k] > inner_high_[k]) return true;
+    }
+    return has_obstacles() && is_near_obstacle<D>(x);
+}
+
+template <int D>
+bool IntegralWalls::find_lonely_face(const std::array<double, D>& x, LonelyFace& face) const {
+    int count = 0;
+    for (int k = 0; k < D; ++k) {
+        const auto& [low, high] = room_[k];
+        if (x[k] < inner_low_[k]) {
+            ++count;
+            face = {k, 1.0, x[k] - low.at, &low.surface};
+        }
+        if (x[k] > inner_high_[k]) {
+            ++count;
+            face = {k, -1.0, high.at - x[k], &high.surface};
         }
     }
+    return count == 1 && !(has_obstacles() && is_near_obstacle<D>(x));
+}
+
+template <int D>
+bool IntegralWalls::is_near_obstacle(const std::array<double, D>& x) const {
     const Vec3 place = in_space<D>(x);
     for (const IntegralBox& box : boxes_) {
         const Vec3 middle{0.5 * (box.low[0] + box.high[0]), 0.5 * (box.low[1] + box.high[1]),
@@ -460,7 +493,6 @@ void IntegralWalls::find_share(const std::array<double, D>& x, double least_dist
     share.count = 0;
     share.grad = share.shifted = {};
     share.M = {};
-    share.gamma = 0.0;
     const Vec3 place = in_space<D>(x);
     ShareSum<D> sum(*this, least_distance, share);
     if (has_faces_) sum.add_room(place);
@@ -473,7 +505,11 @@ void IntegralWalls::find_share(const std::array<double, D>& x, double least_dist
 }
 
 template bool IntegralWalls::is_near<2>(const std::array<double, 2>&) const;
+template bool IntegralWalls::is_near_obstacle<2>(const std::array<double, 2>&) const;
+template bool IntegralWalls::find_lonely_face<2>(const std::array<double, 2>&, LonelyFace&) const;
 template bool IntegralWalls::is_near<3>(const std::array<double, 3>&) const;
+template bool IntegralWalls::is_near_obstacle<3>(const std::array<double, 3>&) const;
+template bool IntegralWalls::find_lonely_face<3>(const std::array<double, 3>&, LonelyFace&) const;
 template void IntegralWalls::find_share<2>(const std::array<double, 2>&, double, WallShare<2>&) const;
 template void IntegralWalls::find_share<3>(const std::array<double, 3>&, double, WallShare<3>&) const;
 

@@ -53,22 +53,32 @@ struct IntegralSphere {
 template <int D>
 struct WallPart {
     std::array<double, D> n;       // [1] into the fluid
+    double distance;               // [m] of the surface, negative inside
     std::array<double, D> grad;    // [1/m] of grad W; what two faces of the room share is divided between them
     std::array<double, D> grad_n;  // [1/m] of grad W, over the face's whole half-space
-    std::array<double, D> M_n;     // [1] of y (x) grad W, times n; over the whole half-space
-    Symmetric<D> viscous;          // [m^-2] of F y y/r^2 (1 + depth/d): see no_slip_difference() in wall_state.h
+    double m_n;                    // [1] of n . y (n . grad W), over the whole half-space
     const IntegralSurface* surface;
+    // Only where the viscous part is wanted:
+    double gamma;                                     // [1] of W; divided as grad
+    std::array<double, Symmetric<D>::kSize> viscous;  // [m^-2] of F y y/r^2 (1 + depth/d), as in no_slip_difference()
 };
 
 template <int D>
 struct WallShare {
     static constexpr int kMost = 2 * D + 6;
-    int count{0};
+    int count;
     std::array<WallPart<D>, kMost> part;
-    std::array<double, D> grad{};     // [1/m] of grad W
-    std::array<double, D> shifted{};  // [1/m] of the shifting's gradient
-    Symmetric<D> M;                   // [1] of y (x) grad W
-    double gamma{};                   // [1] of W
+    std::array<double, D> grad;                 // [1/m] of grad W
+    std::array<double, D> shifted;              // [1/m] of the shifting's gradient
+    std::array<double, Symmetric<D>::kSize> M;  // [1] of y (x) grad W, as Symmetric stores it
+};
+
+// The room's only face within reach, with no obstacle near.
+struct LonelyFace {
+    int axis{};
+    double sign{};  // of the normal into the fluid
+    double distance{};
+    const IntegralSurface* surface{};
 };
 
 class IntegralWalls {
@@ -80,6 +90,7 @@ class IntegralWalls {
     IntegralWalls(const SectionKernel& kernel, double layer);
 
     bool is_empty() const { return !has_faces_ && boxes_.empty() && spheres_.empty(); }
+    bool has_obstacles() const { return !boxes_.empty() || !spheres_.empty(); }
     int dimensions() const { return dimensions_; }
     double support() const { return support_; }
 
@@ -93,28 +104,47 @@ class IntegralWalls {
     // visit(surface) for each.
     template <class Visit>
     void for_each_surface(Visit&& visit) {
-        for (auto& sides : room_) {
-            for (IntegralFace& face : sides) {
-                if (face.exists) visit(face.surface);
-            }
-        }
-        for (IntegralBox& box : boxes_) visit(box.surface);
-        for (IntegralSphere& sphere : spheres_) visit(sphere.surface);
+        visit_surfaces(*this, visit);
+    }
+    template <class Visit>
+    void for_each_surface(Visit&& visit) const {
+        visit_surfaces(*this, visit);
     }
 
-    // Is x within the support of a wall?
+    // Between these bounds no face is within reach [m].
+    const Vec3& inner_low() const { return inner_low_; }
+    const Vec3& inner_high() const { return inner_high_; }
+
+    // Is x within the support of a wall? Of an obstacle?
     template <int D>
     bool is_near(const std::array<double, D>& x) const;
+    template <int D>
+    bool is_near_obstacle(const std::array<double, D>& x) const;
 
     // The solid's share of the sums of a particle at x. least_distance [m]: see no_slip_difference(); below 0: viscous
-    // is left out.
+    // and gamma are left out.
     template <int D>
     void find_share(const std::array<double, D>& x, double least_distance, WallShare<D>& share) const;
+
+    // By far the most frequent case, for which profile() is all there is to know.
+    template <int D>
+    bool find_lonely_face(const std::array<double, D>& x, LonelyFace& face) const;
+    WallProfile profile(double distance) const { return plane_.plain(distance); }
 
   private:
     template <int D>
     friend class ShareSum;
 
+    template <class Self, class Visit>
+    static void visit_surfaces(Self& self, Visit&& visit) {
+        for (auto& sides : self.room_) {
+            for (auto& face : sides) {
+                if (face.exists) visit(face.surface);
+            }
+        }
+        for (auto& box : self.boxes_) visit(box.surface);
+        for (auto& sphere : self.spheres_) visit(sphere.surface);
+    }
     Vec3 nearest_image(Vec3 x, const Vec3& center) const;
 
     int dimensions_{3};
@@ -126,9 +156,12 @@ class IntegralWalls {
     SectionTable corner_;  // points
     bool has_faces_{false};
     std::array<std::array<IntegralFace, 2>, 3> room_;
+    Vec3 inner_low_{kNowhere, kNowhere, kNowhere}, inner_high_{-kNowhere, -kNowhere, -kNowhere};
     std::vector<IntegralBox> boxes_;
     std::vector<IntegralSphere> spheres_;
     Vec3 period_{};  // [m]; 0: none
+
+    static constexpr double kNowhere = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace headrace::solver

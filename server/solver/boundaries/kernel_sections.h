@@ -1,5 +1,8 @@
-// Integrals of a kernel over points, lines and planes: what a wall's solid is put together from (wall_profile.h,
-// integral_walls.h). Made once, by numerical integration, of any kernel; then tables in the distance.
+// A kernel summed over points, lines and planes: what a wall's solid is put together from (wall_profile.h,
+// integral_walls.h). Made once, of any kernel; then tables in the distance.
+//
+// Lines and planes are sums over a lattice as wide as the fluid's, one of whose points is nearest to the centre: a
+// particle on a lattice sees that lattice go on in the solid. A finer lattice comes to the integral.
 #pragma once
 
 #include <array>
@@ -17,7 +20,7 @@ struct SectionKernel {
     std::function<double(double)> F_shifted;  // F with the weight of the shifting (forces/shifting.h)
 };
 
-// Sums over one point, or integrals over a line or plane at the distance s; t is a coordinate along it, y across.
+// Sums over one point, or times the lattice's cell over a line or plane, at the distance s; t is a coordinate along it.
 struct Section {
     double W{};          // W
     double F{};          // F
@@ -61,12 +64,12 @@ class LinearTable {
     std::vector<Entry> entries_;
 };
 
-// extent: 0 a point, 1 a line, 2 a plane.
-Section integrate_section(const SectionKernel& kernel, int extent, double s);
+// extent: 0 a point, 1 a line, 2 a plane. cell [m]: of the lattice.
+Section sum_section(const SectionKernel& kernel, int extent, double cell, double s);
 
 inline constexpr int kSectionSteps = 512;  // of the tables, over the support
 
 using SectionTable = LinearTable<Section>;
-SectionTable make_section_table(const SectionKernel& kernel, int extent);
+SectionTable make_section_table(const SectionKernel& kernel, int extent, double cell);
 
 }  // namespace headrace::solver

@@ -24,8 +24,10 @@ WallField::WallField(int dimensions, double spacing, double support)
     : dimensions_(dimensions), spacing_(spacing), walls_(dimensions, spacing, support) {}
 
 WallField::Change WallField::place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options) {
+    if (anew) choose(surroundings, options);
+    run_belts(surroundings, t);
     if (anew) {
-        walls_.rebuild(surroundings.objects, surroundings.domain, t);
+        walls_.rebuild(surroundings.objects, surroundings.domain, t, choice_.is_integral);
     } else if (!walls_.move_to(t)) {
         return Change::none;
     }
@@ -46,8 +48,27 @@ WallField::Change WallField::place(const Surroundings& surroundings, double t, b
     return Change::others;
 }
 
+void WallField::choose(const Surroundings& surroundings, const WallOptions& options) {
+    const std::span<const CollisionObject> objects = surroundings.objects;
+    choice_ = {std::vector<char>(objects.size(), 0), {}};
+    integrals_.clear();
+    if (!options.integrals) return;
+    choice_ = choose_integral_walls(objects, surroundings.domain, dimensions_, integrals_.support());
+    std::vector<char> no_slip;
+    for (const CollisionObject& object : objects)
+        no_slip.push_back((object.slip == Slip::by_model ? options.slip : object.slip) == Slip::no_slip);
+    place_integral_walls(objects, surroundings.domain, choice_.is_integral, no_slip, integrals_);
+}
+
+void WallField::run_belts(const Surroundings& surroundings, double t) {
+    integrals_.for_each_surface([&](IntegralSurface& surface) {
+        const CollisionObject& object = surroundings.objects[surface.object];
+        if (object.motion) surface.v = object.motion(t).surface_velocity;
+    });
+}
+
 bool WallField::put_in_order(const Domain& domain) {
-    if (std::exchange(is_in_order_, true) || is_empty()) return false;
+    if (std::exchange(is_in_order_, true) || size() == 0) return false;
     WallParticles& w = walls_.particles();
     order_.build(w.x, w.id, dimensions_, spacing_, domain);
     for (std::vector<Index>* field : {&w.id, &w.object, &w.sheet}) order_.permute(*field, scratch_id_);
@@ -82,6 +103,11 @@ double WallField::max_speed() const {
         for (int k = 0; k < dimensions_; ++k) v2 += w.v[k][i] * w.v[k][i];
         v2_max = std::max(v2_max, v2);
     }
+    integrals_.for_each_surface([&](const IntegralSurface& surface) {
+        double v2 = 0.0;
+        for (int k = 0; k < dimensions_; ++k) v2 += surface.v[k] * surface.v[k];
+        v2_max = std::max(v2_max, v2);
+    });
     return std::sqrt(v2_max);
 }
 
@@ -114,6 +140,10 @@ bool WallField::find_free_place(Vec3& x) const {
         }
     }
     return false;
+}
+
+bool WallField::is_near_integrals(const Vec3& x) const {
+    return dimensions_ == 2 ? integrals_.is_near<2>({x[0], x[1]}) : integrals_.is_near<3>({x[0], x[1], x[2]});
 }
 
 bool WallField::put_back(Index id, Vec3& x, Vec3& v, double dt) const {
@@ -158,13 +188,14 @@ std::uint64_t WallField::hold(Particles& particles, const PairNeighbours& neighb
     std::vector<std::uint64_t> counts((clusters + kBlock - 1) / kBlock);
     parallel_for(clusters, kBlock, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t c = first; c < last; ++c) {
-            if (!neighbours.is_near_walls(c)) continue;
+            if (!neighbours.is_near_walls(c) && integrals_.is_empty()) continue;
             for (std::size_t i = c * kClusterSize; i < std::min((c + 1) * kClusterSize, particles.size()); ++i) {
                 Vec3 x{}, v{};
                 for (int k = 0; k < dimensions_; ++k) {
                     x[k] = particles.x[k][i];
                     v[k] = particles.v[k][i];
                 }
+                if (!neighbours.is_near_walls(c) && !is_near_integrals(x)) continue;
                 if (!put_back(particles.id[i], x, v, dt)) continue;
                 ++counts[first / kBlock];
                 for (int k = 0; k < dimensions_; ++k) {

@@ -121,9 +121,30 @@ class Wcsph final : public Model {
             p_.wall_suction == WallSuction::clamped || (p_.wall_suction == WallSuction::automatic && p_.free_surface);
         return clamps ? 0.0 : -std::numeric_limits<double>::infinity();
     }
-    PassData data(Particles& particles) { return {particles, state_, walls_.particles(), walls_.state()}; }
+    // Surface tension asks for the fluid's places in the walls, too: it takes dummies.
+    bool has_integral_walls() const { return p_.walls == WallKind::integrals && p_.surface_tension == 0.0; }
+    SolidView solid_view() const {
+        if (walls_.integrals().is_empty()) return {};
+        SolidView view;
+        view.walls = &walls_.integrals();
+        view.gravity = p_.gravity;
+        view.a_body = wall_gravity_[0].empty() ? nullptr : &wall_gravity_;
+        view.inv_c2 = 1.0 / (c0_ * c0_);
+        view.walls_suck = least_wall_pressure() < 0.0;
+        view.inner_low = view.walls->inner_low();
+        view.inner_high = view.walls->inner_high();
+        view.has_obstacles = view.walls->has_obstacles();
+        return view;
+    }
+    PassData data(Particles& particles) {
+        return {particles, state_, walls_.particles(), walls_.state(), solid_view()};
+    }
 
-    WcsphView view(const Particles& particles) const { return {particles, state_, walls_.particles(), walls_.state()}; }
+    WcsphView view(const Particles& particles) const {
+        return {particles, state_, walls_.particles(), walls_.state(), solid_view()};
+    }
+    // Of the pressure pass in the present state.
+    SolidSums record_solid_sums(const Particles& particles) const;
     PressureOptions pressure_options() const;
     ViscosityOptions viscosity_options() const { return {p_.viscosity, 0.25 * spacing_}; }
     TensionOptions tension_options() const { return {p_.surface_tension, flat_surface_, kThesisThreshold / support_}; }
@@ -144,6 +165,7 @@ class Wcsph final : public Model {
         if (energies_.is_on()) energies_.count_loss(before, stored_energy(particles, surroundings));
     }
 
+    SectionKernel section_kernel() const;  // for the walls, while sums_ lives
     // Of the kernel, support and precision of now; the neighbours are not known yet.
     void make_sums();
     void set_flat_surface() {
@@ -200,6 +222,7 @@ class Wcsph final : public Model {
     Particles midpoint_;  // where the body force is evaluated; empty without one
     std::unique_ptr<WcsphSums> sums_;
     FlatSurface flat_surface_;  // under this kernel
+    VectorField wall_gravity_;  // [m/s^2] gravity and body force, for integral walls; empty without either
     VectorField tension_x_;     // [m] where surface tension is evaluated; empty without it
     Vec3 period_{};             // [m]
 

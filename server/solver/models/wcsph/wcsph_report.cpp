@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "server/solver/models/wcsph/solid_loads.h"
 #include "server/solver/models/wcsph/sound_speed.h"
 #include "server/solver/models/wcsph/wcsph_model.h"
 #include "server/solver/neighbours.h"
@@ -96,8 +97,12 @@ std::string Wcsph::neighbours_reason() const {
 
 std::string Wcsph::walls_reason() const {
     if (walls_.is_empty()) return "no objects";
-    return "pressure and place of " + std::to_string(walls_.size()) + " wall particles; " + std::to_string(put_back_) +
-           " fluid particles put back on a surface so far";
+    std::string what;
+    if (!walls_.integrals().is_empty())
+        what = walls_.size() == 0 ? "integrals of the kernel" : "integrals of the kernel beside ";
+    if (walls_.size() > 0) what += "pressure and place of " + std::to_string(walls_.size()) + " wall particles";
+    if (!walls_.choice_remark().empty()) what += " (" + walls_.choice_remark() + ")";
+    return what + "; " + std::to_string(put_back_) + " fluid particles put back on a surface so far";
 }
 
 std::vector<Stage> Wcsph::plan(const Surroundings&) const {
@@ -129,14 +134,33 @@ TermOptions Wcsph::term_options() const {
 std::vector<ObjectLoad> Wcsph::object_loads(const Particles& particles, const Surroundings& surroundings) const {
     std::vector<ObjectLoad> loads(surroundings.objects.size());
     if (walls_.is_empty()) return loads;
-    const std::vector<WallForce> forces =
-        compute_wall_forces(load_input(surroundings), view(particles), *sums_, term_options());
-    const std::vector<ObjectLoad> known = sum_object_loads(walls_.particles(), forces, object_names_.size());
+    const WcsphView seen = view(particles);
+    const TermOptions options = term_options();
+    const std::vector<WallForce> forces = compute_wall_forces(load_input(surroundings), seen, *sums_, options);
+    std::vector<ObjectLoad> known = sum_object_loads(walls_.particles(), forces, object_names_.size());
+    if (!walls_.integrals().is_empty()) add_solid_loads(seen, record_solid_sums(particles), options, known);
     for (std::size_t o = 0; o < loads.size(); ++o) {
         const auto found = std::find(object_names_.begin(), object_names_.end(), surroundings.objects[o].name);
         if (found != object_names_.end()) loads[o] = known[static_cast<std::size_t>(found - object_names_.begin())];
     }
     return loads;
+}
+
+SolidSums Wcsph::record_solid_sums(const Particles& particles) const {
+    SolidSums sums;
+    sums.objects.resize(object_names_.size());
+    for (SolidSums::OfObject& object : sums.objects) {
+        for (VectorField* field : {&object.grad_1, &object.pB_grad})
+            for (int k = 0; k < dimensions_; ++k) (*field)[k].assign(particles.size(), 0.0);
+    }
+    // Copies, since the pass writes accelerations.
+    Particles scratch = particles;
+    WcsphState state = state_;
+    WallState wall_state = walls_.state();
+    PassData data{scratch, state, walls_.particles(), wall_state, solid_view()};
+    data.solid.record = &sums;
+    sums_->pressure(data, is_adjoint(), pressure_options());
+    return sums;
 }
 
 // Walls at rest do no work: they are not asked.

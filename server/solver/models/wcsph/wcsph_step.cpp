@@ -42,6 +42,8 @@ void Wcsph::put_in_order(Particles& particles, const Surroundings& surroundings)
         permute(*field);
     for (MatrixField* field : {&state_.B, &state_.pB, &state_.strain})
         for (int k = 0; k < symmetric_size(dimensions_); ++k) permute((*field)[k]);
+    if (!wall_gravity_[0].empty())
+        for (int k = 0; k < dimensions_; ++k) permute(wall_gravity_[k]);
     if (energies_.is_on()) energies_.permute(order_, scratch_);
     ++sorts_;
 }
@@ -88,7 +90,9 @@ void Wcsph::find_neighbours(Particles& particles, const Surroundings& surroundin
 }
 
 void Wcsph::place_walls(const Surroundings& surroundings, double t, bool anew) {
-    const WallField::Change change = walls_.place(surroundings, t, anew, {p_.gravity, p_.wall_slip});
+    if (has_integral_walls() && !walls_.has_kernel()) walls_.set_kernel(section_kernel());
+    const WallField::Change change =
+        walls_.place(surroundings, t, anew, {p_.gravity, p_.wall_slip, has_integral_walls()});
     using enum WallField::Change;
     if (change == others) has_lists_ = false;
     if (change == moved && has_lists_)
@@ -108,6 +112,16 @@ void Wcsph::make_sums() {
     is_first_list_ = true;
     sums_ = make_wcsph_sums({dimensions_, p_.kernel, support_}, *neighbours_);
     set_flat_surface();
+}
+
+SectionKernel Wcsph::section_kernel() const {
+    const WcsphSums* sums = sums_.get();
+    const double W_dx = sums->W(spacing_);
+    const auto F_shifted = [=](double r) {
+        return shifting_factor<2, double>({{}, r * r, r, 1.0}, sums->F(r), sums->W(r) / W_dx);
+    };
+    return {dimensions_, support_, [=](double r) { return sums->W(r); }, [=](double r) { return sums->F(r); },
+            F_shifted};
 }
 
 // ---- once per step --------------------------------------------------------------------------------------------------
@@ -168,6 +182,7 @@ void Wcsph::compute_slow_forces(Particles& particles, const Surroundings& surrou
             });
         }
         (*surroundings.body_force)(surroundings.time + half, midpoint_, state_.a_slow);
+        if (!walls_.integrals().is_empty()) wall_gravity_ = state_.a_slow;
     }
     if (energies_.is_on()) energies_.note_body_force(state_.a_slow, energy_setting(surroundings), dimensions_);
     if (p_.viscosity > 0.0) {
