@@ -118,6 +118,15 @@ class IntegralWalls {
     // Is x within the support of a wall? Of an obstacle?
     template <int D>
     bool is_near(const std::array<double, D>& x) const;
+    // Could x be in a solid?
+    template <int D>
+    bool may_hold(const std::array<double, D>& x) const {
+        const double reach = support_ * (1.0 - 1e-9);  // round-off: rather too often
+        for (int k = 0; k < D; ++k) {
+            if (x[k] < inner_low_[k] - reach || x[k] > inner_high_[k] + reach) return true;
+        }
+        return has_obstacles() && is_near_obstacle<D>(x);
+    }
     template <int D>
     bool is_near_obstacle(const std::array<double, D>& x) const;
 

@@ -210,7 +210,8 @@ class Inspector {
                 {std::nullopt, in_.wall_names[part.surface->object], std::max(part.distance, 0.0), part.gamma});
         }
         PressureSums<D, double> walls;
-        add_solid_pressure<D>(in_.view.solid, in_.view.particles, i_, of_fluid_, walls);
+        add_solid_pressure<D>(in_.view.solid, in_.view.particles, i_, of_fluid_, terms_.own_pressure_of(i_, of_fluid_),
+                              walls);
         add(sums_.wall_pressure, terms_.wall_pressure(i_, walls));
         if (in_.options.viscosity.mu > 0.0) {
             terms_.for_each_solid_viscosity(

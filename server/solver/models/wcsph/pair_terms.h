@@ -65,6 +65,11 @@ class PairTerms {
         return pressure_acceleration(i, sums);
     }
 
+    Vector own_pressure_of(Index i, const PressureSums<D, double>& fluid) const {
+        if (!options_.is_adjoint) return own_pressure<D>(fluid, view_.particles.p[i]);
+        return own_pressure<D>(fluid, matrix_at<D>(view_.state.pB, i), is_controlled(i) ? -1.0 : 1.0);
+    }
+
     // visit(object, acceleration) for the walls without particles.
     template <class Visit>
     void for_each_solid_viscosity(Index i, Visit&& visit) const {

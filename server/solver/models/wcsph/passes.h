@@ -373,11 +373,16 @@ struct PressurePass {
         const double p = data.particles.p[i], rho = data.particles.rho[i];
         PressureSums<D, double> total = sums.fluid, walls = sums.walls;
         const Symmetric<D> B = matrix_at<D>(data.state.B, i);
-        if (data.solid.is_near(vector_at<D>(data.particles.x, i)))
-            add_solid_pressure<D>(data.solid, data.particles, i, sums.fluid, walls);
         const bool is_controlled =
             IsAdjoint && options.controls_tension &&
             controls_tension(p, data.state.min_eigenvalue[i], data.state.unevenness[i], options.tension_limits);
+        const double sign = is_controlled ? -1.0 : 1.0;
+        if (data.solid.is_near(vector_at<D>(data.particles.x, i))) {
+            const std::array<double, D> own = IsAdjoint
+                                                  ? own_pressure<D>(sums.fluid, matrix_at<D>(data.state.pB, i), sign)
+                                                  : own_pressure<D>(sums.fluid, p);
+            add_solid_pressure<D>(data.solid, data.particles, i, sums.fluid, own, walls);
+        }
         // Where walls do not suck, controlled tension would push the particle off the wall, the more the further it
         // goes: it ends at the fluid.
         if (!is_controlled || options.walls_suck) add_to<D, double>(total.grad_1, walls.grad_1);
@@ -385,7 +390,7 @@ struct PressurePass {
         add_to<D, double>(total.pB_grad, walls.pB_grad);
         std::array<double, D> a;
         if constexpr (IsAdjoint) {
-            a = adjoint_acceleration<D>(total, matrix_at<D>(data.state.pB, i), is_controlled ? -1.0 : 1.0, rho);
+            a = adjoint_acceleration<D>(total, matrix_at<D>(data.state.pB, i), sign, rho);
         } else {
             a = difference_acceleration<D>(total, p, B, rho);
         }

@@ -171,21 +171,34 @@ double solid_divergence(const SolidView& solid, const Particles& particles, cons
 
 template <int D>
 void add_solid_pressure(const SolidView& solid, const Particles& particles, Index i,
-                        const PressureSums<D, double>& fluid, PressureSums<D, double>& walls) {
+                        const PressureSums<D, double>& fluid, const std::array<double, D>& own,
+                        PressureSums<D, double>& walls) {
     const double p = particles.p[i];
     const std::array<double, D> slope = scaled<D, double>(particles.rho[i], solid.gravity_on<D>(i));
-    std::array<double, D> of_fluid = fluid.pB_grad;
-    for (int k = 0; k < D; ++k) of_fluid[k] -= p * fluid.grad_1[k];
+    // D, and what becomes of it along the walls.
+    std::array<double, D> of_fluid, change;
+    for (int k = 0; k < D; ++k) {
+        of_fluid[k] = fluid.pB_grad[k] - p * fluid.grad_1[k];
+        change[k] = own[k] + p * fluid.grad_1[k];
+    }
     LonelyFace face;
     if (solid.record == nullptr && solid.walls->find_lonely_face<D>(at<D>(particles.x, i), face)) {
         const WallProfile profile = solid.walls->profile(face.distance);
         walls.grad_1[face.axis] -= face.sign * profile.w;
+        change[face.axis] = 0.0;
+        add_to<D, double>(of_fluid, change);
         add_to<D, double>(walls.pB_grad, find_pressure<D>(face, profile, p, slope, of_fluid, solid.walls_suck));
         return;
     }
     WallShare<D> share;
     solid.walls->find_share<D>(at<D>(particles.x, i), -1.0, share);
     add_to<D, double>(walls.grad_1, share.grad);
+    for (int a = 0; a < share.count; ++a) {
+        const std::array<double, D>& n = share.part[a].n;
+        const double across = dot<D, double>(change, n);
+        for (int k = 0; k < D; ++k) change[k] -= across * n[k];
+    }
+    add_to<D, double>(of_fluid, change);
     SolidPressure<D> pressure;
     find_pressure<D>(share, p, slope, of_fluid, solid.walls_suck, solid.record != nullptr, pressure);
     add_to<D, double>(walls.pB_grad, pressure.sum);
@@ -211,13 +224,13 @@ void add_solid_viscosity(const SolidView& solid, const Particles& particles, con
 template void add_solid_geometry<2>(const SolidView&, const Particles&, double, Index, GeometryShares<2>);
 template double solid_divergence<2>(const SolidView&, const Particles&, const Symmetric<2>&, Index);
 template void add_solid_pressure<2>(const SolidView&, const Particles&, Index, const PressureSums<2, double>&,
-                                    PressureSums<2, double>&);
+                                    const std::array<double, 2>&, PressureSums<2, double>&);
 template void add_solid_viscosity<2>(const SolidView&, const Particles&, const Symmetric<2>&, double, Index,
                                      std::array<double, 2>&);
 template void add_solid_geometry<3>(const SolidView&, const Particles&, double, Index, GeometryShares<3>);
 template double solid_divergence<3>(const SolidView&, const Particles&, const Symmetric<3>&, Index);
 template void add_solid_pressure<3>(const SolidView&, const Particles&, Index, const PressureSums<3, double>&,
-                                    PressureSums<3, double>&);
+                                    const std::array<double, 3>&, PressureSums<3, double>&);
 template void add_solid_viscosity<3>(const SolidView&, const Particles&, const Symmetric<3>&, double, Index,
                                      std::array<double, 3>&);
 

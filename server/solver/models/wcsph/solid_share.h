@@ -12,6 +12,9 @@
 //
 // so that a flat wall adds m (n . h) across, and along it the fluid's part stands for the whole: D_t/(1 - m_t).
 // Still fluid's slope in all directions would hold up what falls freely along a wall; dummies take the fluid's mean.
+//
+// Along all walls near, D is taken as the pass itself sums it, with the particle's own pressure in its form: the solid
+// continues the fluid, its free surface included, which the wall then disturbs no more than fluid would.
 #pragma once
 
 #include <vector>
@@ -80,10 +83,22 @@ void add_solid_geometry(const SolidView& solid, const Particles& particles, doub
 template <int D>
 double solid_divergence(const SolidView& solid, const Particles& particles, const Symmetric<D>& B, Index i);
 
-// fluid: sums over the fluid; walls: gets the solid's.
+// fluid: sums over the fluid; own: what the particle's pressure makes of its grad_1 in the pass's form, own_pressure();
+// walls: gets the solid's sums.
 template <int D>
 void add_solid_pressure(const SolidView& solid, const Particles& particles, Index i,
-                        const PressureSums<D, double>& fluid, PressureSums<D, double>& walls);
+                        const PressureSums<D, double>& fluid, const std::array<double, D>& own,
+                        PressureSums<D, double>& walls);
+
+// pB_i: adjoint form, sign as in adjoint_acceleration(); p_i: difference form.
+template <int D>
+std::array<double, D> own_pressure(const PressureSums<D, double>& fluid, const Symmetric<D>& pB_i, double sign) {
+    return scaled<D, double>(sign, pB_i * fluid.grad_1);
+}
+template <int D>
+std::array<double, D> own_pressure(const PressureSums<D, double>& fluid, double p_i) {
+    return scaled<D, double>(-p_i, fluid.grad_1);
+}
 
 // No-slip viscosity, to be multiplied by mu/rho_i (forces/laminar_viscosity.h, Morris's form).
 template <int D>

@@ -142,8 +142,8 @@ bool WallField::find_free_place(Vec3& x) const {
     return false;
 }
 
-bool WallField::is_near_integrals(const Vec3& x) const {
-    return dimensions_ == 2 ? integrals_.is_near<2>({x[0], x[1]}) : integrals_.is_near<3>({x[0], x[1], x[2]});
+bool WallField::may_be_in_integrals(const Vec3& x) const {
+    return dimensions_ == 2 ? integrals_.may_hold<2>({x[0], x[1]}) : integrals_.may_hold<3>({x[0], x[1], x[2]});
 }
 
 bool WallField::put_back(Index id, Vec3& x, Vec3& v, double dt) const {
@@ -195,7 +195,7 @@ std::uint64_t WallField::hold(Particles& particles, const PairNeighbours& neighb
                     x[k] = particles.x[k][i];
                     v[k] = particles.v[k][i];
                 }
-                if (!neighbours.is_near_walls(c) && !is_near_integrals(x)) continue;
+                if (!neighbours.is_near_walls(c) && !may_be_in_integrals(x)) continue;
                 if (!put_back(particles.id[i], x, v, dt)) continue;
                 ++counts[first / kBlock];
                 for (int k = 0; k < dimensions_; ++k) {

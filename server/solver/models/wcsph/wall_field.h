@@ -55,7 +55,7 @@ class WallField {
   private:
     void choose(const Surroundings& surroundings, const WallOptions& options);
     void run_belts(const Surroundings& surroundings, double t);
-    bool is_near_integrals(const Vec3& x) const;
+    bool may_be_in_integrals(const Vec3& x) const;
     void evaluate_gravity(const Surroundings& surroundings, double t, const Vec3& gravity);
     bool put_back(Index id, Vec3& x, Vec3& v, double dt) const;
     bool find_free_place(Vec3& x) const;
