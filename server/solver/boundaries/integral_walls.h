@@ -1,7 +1,7 @@
 // Walls as integrals of the kernel over their solid, in place of dummy particles: no particles, no pairs; a fluid
-// particle within the support of a wall adds the solid's share to its sums. Related: the semi-analytical walls of
-// Ferrand et al. 2013 (surface integrals of the same kernel); here the solid itself is summed, in layers
-// (wall_profile.h), so that sums need no other normalisation than with dummies.
+// particle within the support of a wall adds the solid's share to its sums. Related to the renormalising walls of
+// Kulasegaram et al. 2004 and Ferrand et al. 2013; here the solid itself is summed, in layers (wall_profile.h), so that
+// the sums need no other normalisation than with dummies.
 //
 // Which objects: boxes and planes along the axes, spheres, at rest (wall_choice.h). Containers and planes together
 // leave a room, the product of one interval per axis. Its solid is a sum over half-spaces, less what two share, plus

@@ -76,8 +76,12 @@ std::optional<std::string> Wcsph::refuse_domain(const Domain& domain) const {
 // Tried out: how many wall particles they need is known when they have been made.
 std::optional<std::string> Wcsph::refuse_objects(std::span<const CollisionObject> objects, const Domain& domain,
                                                  double t) const {
+    const double support = p_.support_over_spacing * spacing_;
+    std::vector<char> without_dummies;
+    if (has_integral_walls())
+        without_dummies = choose_integral_walls(objects, domain, dimensions_, support).is_integral;
     try {
-        Walls(dimensions_, spacing_, p_.support_over_spacing * spacing_).rebuild(objects, domain, t);
+        Walls(dimensions_, spacing_, support).rebuild(objects, domain, t, without_dummies);
     } catch (const std::length_error& problem) {
         return problem.what();
     }

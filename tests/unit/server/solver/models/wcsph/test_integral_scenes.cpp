@@ -66,6 +66,30 @@ TEST_CASE("IntegralScenes.StillWaterHardlyAccelerates") {
     }
 }
 
+TEST_CASE("IntegralScenes.FreeSurfaceIsAsCalmAtAWallAsFarFromIt") {
+    // The sums end at the surface, where the uppermost layers therefore accelerate: alike at a wall and far from it,
+    // since the solid continues the fluid. Dummies beside air double it.
+    const int dimensions = GENERATE(2, 3);
+    Scene scene = with_integrals(make_tank(dimensions, dimensions == 2 ? 24 : 20, 1.0));
+    REQUIRE_FALSE(scene.start().fault);
+    const double dx = scene.dx;
+    for (const double layer : {0.5, 1.5}) {
+        std::vector<double> at_wall, far;
+        for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+            const Vec3 x = at(scene.particles.x, dimensions, i), a = at(scene.particles.a, dimensions, i);
+            if (std::abs(1.0 - x[1] - layer * dx) > 0.1 * dx) continue;
+            if (dimensions == 3 && std::abs(x[2] - 0.25) > dx) continue;
+            if (x[0] < dx) at_wall.push_back(a[1]);
+            if (std::abs(x[0] - 0.5) < dx) far.push_back(a[1]);
+        }
+        REQUIRE(!at_wall.empty());
+        REQUIRE(!far.empty());
+        INFO(dimensions << "D, layer " << layer);
+        CHECK(std::abs(far[0]) > 0.1);
+        for (const double a : at_wall) CHECK(a == Approx(far[0]).epsilon(0.1));  // what B differs by
+    }
+}
+
 TEST_CASE("IntegralScenes.WaterFallsFreelyAlongWalls") {
     // No pressure in it: nothing holds it up or draws it aside, whatever gravity would make of its weight.
     const int dimensions = GENERATE(2, 3);
