@@ -183,6 +183,17 @@ WallChoice choose_integral_walls(std::span<const CollisionObject> objects, const
     return Chooser(objects, domain, dimensions, support).choose();
 }
 
+WallChoice choose_walls_by_default(std::span<const CollisionObject> objects, const Domain& domain, int dimensions,
+                                   double support, const std::vector<char>& no_slip) {
+    WallChoice choice = choose_integral_walls(objects, domain, dimensions, support);
+    bool takes_all = dimensions == 3;
+    for (std::size_t k = 0; k < objects.size(); ++k)
+        takes_all =
+            takes_all && choice.is_integral[k] && !no_slip[k] && !std::holds_alternative<Sphere>(objects[k].shape);
+    if (!takes_all) choice = {std::vector<char>(objects.size(), 0), {}};
+    return choice;
+}
+
 void place_integral_walls(std::span<const CollisionObject> objects, const Domain& domain,
                           const std::vector<char>& is_integral, const std::vector<char>& no_slip,
                           IntegralWalls& walls) {

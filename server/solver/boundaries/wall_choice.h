@@ -30,6 +30,11 @@ struct WallChoice {
 WallChoice choose_integral_walls(std::span<const CollisionObject> objects, const Domain& domain, int dimensions,
                                  double support);
 
+// For scenes that leave the choice to the model: all objects or none, and only where integrals were found to be cheaper
+// and no less accurate, which is in 3D, of boxes and planes that slip.
+WallChoice choose_walls_by_default(std::span<const CollisionObject> objects, const Domain& domain, int dimensions,
+                                   double support, const std::vector<char>& no_slip);
+
 // Puts the chosen objects into `walls`. no_slip: of each object.
 void place_integral_walls(std::span<const CollisionObject> objects, const Domain& domain,
                           const std::vector<char>& is_integral, const std::vector<char>& no_slip, IntegralWalls& walls);

@@ -122,8 +122,8 @@ const ChoiceRow<Slip> kSlip{
 const ChoiceRow<WallKind> kWallKind{
     {"walls", "1",
      "What walls are made of: dummy particles, or integrals of the kernel over boxes, spheres and planes along the "
-     "axes "
-     "that rest and do not overlap (other objects stay particles); automatic: particles."},
+     "axes that rest and do not overlap (other objects stay particles); automatic: integrals in 3D where all objects "
+     "allow it, are no spheres and slip; else particles."},
     &P::walls,
     {"automatic", "particles", "integrals"}};
 const ChoiceRow<WallSuction> kSuction{

@@ -18,13 +18,20 @@ double skin_share(Index id, int turn) {
     return static_cast<double>(mix((std::uint64_t{id} << 2) | static_cast<std::uint64_t>(turn)) >> 11) * 0x1p-53;
 }
 
+std::vector<char> no_slip_of(std::span<const CollisionObject> objects, Slip by_model) {
+    std::vector<char> no_slip;
+    for (const CollisionObject& object : objects)
+        no_slip.push_back((object.slip == Slip::by_model ? by_model : object.slip) == Slip::no_slip);
+    return no_slip;
+}
+
 }  // namespace
 
 WallField::WallField(int dimensions, double spacing, double support)
     : dimensions_(dimensions), spacing_(spacing), walls_(dimensions, spacing, support) {}
 
 WallField::Change WallField::place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options) {
-    if (anew) choose(surroundings, options);
+    if (anew) place_integrals(surroundings, options);
     run_belts(surroundings, t);
     if (anew) {
         walls_.rebuild(surroundings.objects, surroundings.domain, t, choice_.is_integral);
@@ -48,16 +55,19 @@ WallField::Change WallField::place(const Surroundings& surroundings, double t, b
     return Change::others;
 }
 
-void WallField::choose(const Surroundings& surroundings, const WallOptions& options) {
-    const std::span<const CollisionObject> objects = surroundings.objects;
-    choice_ = {std::vector<char>(objects.size(), 0), {}};
+WallChoice WallField::choose(std::span<const CollisionObject> objects, const Domain& domain, int dimensions,
+                             double support, const WallOptions& options) {
+    if (options.integrals) return choose_integral_walls(objects, domain, dimensions, support);
+    if (!options.by_default) return {std::vector<char>(objects.size(), 0), {}};
+    return choose_walls_by_default(objects, domain, dimensions, support, no_slip_of(objects, options.slip));
+}
+
+void WallField::place_integrals(const Surroundings& surroundings, const WallOptions& options) {
+    choice_ = choose(surroundings.objects, surroundings.domain, dimensions_, integrals_.support(), options);
     integrals_.clear();
-    if (!options.integrals) return;
-    choice_ = choose_integral_walls(objects, surroundings.domain, dimensions_, integrals_.support());
-    std::vector<char> no_slip;
-    for (const CollisionObject& object : objects)
-        no_slip.push_back((object.slip == Slip::by_model ? options.slip : object.slip) == Slip::no_slip);
-    place_integral_walls(objects, surroundings.domain, choice_.is_integral, no_slip, integrals_);
+    if (!options.integrals && !options.by_default) return;
+    place_integral_walls(surroundings.objects, surroundings.domain, choice_.is_integral,
+                         no_slip_of(surroundings.objects, options.slip), integrals_);
 }
 
 void WallField::run_belts(const Surroundings& surroundings, double t) {

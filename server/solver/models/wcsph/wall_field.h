@@ -16,7 +16,8 @@ namespace headrace::solver {
 struct WallOptions {
     Vec3 gravity{};              // [m/s^2]
     Slip slip{Slip::free_slip};  // of objects that do not say
-    bool integrals{false};       // in place of dummy particles, where an object allows it
+    // Integrals in place of dummy particles: where an object allows it; only where the scene as a whole does.
+    bool integrals{false}, by_default{false};
 };
 
 class WallField {
@@ -31,6 +32,9 @@ class WallField {
 
     // What integrals are made of; before they are placed for the first time.
     bool has_kernel() const { return integrals_.support() > 0.0; }
+    // Which objects would be integrals.
+    static WallChoice choose(std::span<const CollisionObject> objects, const Domain& domain, int dimensions,
+                             double support, const WallOptions& options);
     void set_kernel(const SectionKernel& kernel) { integrals_ = IntegralWalls(kernel, spacing_); }
 
     bool is_empty() const { return size() == 0 && integrals_.is_empty(); }
@@ -53,7 +57,7 @@ class WallField {
     std::uint64_t hold(Particles& particles, const PairNeighbours& neighbours, double dt) const;
 
   private:
-    void choose(const Surroundings& surroundings, const WallOptions& options);
+    void place_integrals(const Surroundings& surroundings, const WallOptions& options);
     void run_belts(const Surroundings& surroundings, double t);
     bool may_be_in_integrals(const Vec3& x) const;
     void evaluate_gravity(const Surroundings& surroundings, double t, const Vec3& gravity);

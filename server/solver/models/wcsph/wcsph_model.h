@@ -122,7 +122,11 @@ class Wcsph final : public Model {
         return clamps ? 0.0 : -std::numeric_limits<double>::infinity();
     }
     // Surface tension asks for the fluid's places in the walls, too: it takes dummies.
-    bool has_integral_walls() const { return p_.walls == WallKind::integrals && p_.surface_tension == 0.0; }
+    WallOptions wall_options() const {
+        const bool may = p_.surface_tension == 0.0;
+        return {p_.gravity, p_.wall_slip, may && p_.walls == WallKind::integrals,
+                may && p_.walls == WallKind::automatic};
+    }
     SolidView solid_view() const {
         if (walls_.integrals().is_empty()) return {};
         SolidView view;

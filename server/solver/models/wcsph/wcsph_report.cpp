@@ -77,11 +77,9 @@ std::optional<std::string> Wcsph::refuse_domain(const Domain& domain) const {
 std::optional<std::string> Wcsph::refuse_objects(std::span<const CollisionObject> objects, const Domain& domain,
                                                  double t) const {
     const double support = p_.support_over_spacing * spacing_;
-    std::vector<char> without_dummies;
-    if (has_integral_walls())
-        without_dummies = choose_integral_walls(objects, domain, dimensions_, support).is_integral;
+    const WallChoice choice = WallField::choose(objects, domain, dimensions_, support, wall_options());
     try {
-        Walls(dimensions_, spacing_, support).rebuild(objects, domain, t, without_dummies);
+        Walls(dimensions_, spacing_, support).rebuild(objects, domain, t, choice.is_integral);
     } catch (const std::length_error& problem) {
         return problem.what();
     }

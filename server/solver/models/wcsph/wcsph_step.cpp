@@ -90,9 +90,10 @@ void Wcsph::find_neighbours(Particles& particles, const Surroundings& surroundin
 }
 
 void Wcsph::place_walls(const Surroundings& surroundings, double t, bool anew) {
-    if (has_integral_walls() && !walls_.has_kernel()) walls_.set_kernel(section_kernel());
-    const WallField::Change change =
-        walls_.place(surroundings, t, anew, {p_.gravity, p_.wall_slip, has_integral_walls()});
+    const WallOptions options = wall_options();
+    if ((options.integrals || (options.by_default && dimensions_ == 3)) && !walls_.has_kernel())
+        walls_.set_kernel(section_kernel());
+    const WallField::Change change = walls_.place(surroundings, t, anew, options);
     using enum WallField::Change;
     if (change == others) has_lists_ = false;
     if (change == moved && has_lists_)

@@ -85,3 +85,20 @@ TEST_CASE("WallChoice.LimitsHowManyObstaclesAreAskedAbout") {
     objects.push_back(ball({0.0, 2.0, 0.0}, 0.2));
     CHECK(choose(objects) == "10000000");
 }
+
+TEST_CASE("WallChoice.ByDefaultIsAllOrNone") {
+    const auto choose_by_default = [](const std::vector<CollisionObject>& objects, int dimensions, char no_slip) {
+        std::string text;
+        for (const char chosen :
+             choose_walls_by_default(objects, kOpen, dimensions, kSupport, std::vector<char>(objects.size(), no_slip))
+                 .is_integral)
+            text += chosen ? '1' : '0';
+        return text;
+    };
+    const CollisionObject step = block({0.5, 0.15, 0.5}, {0.15, 0.15, 0.5});
+    CHECK(choose_by_default({kTank, step}, 3, 0) == "11");
+    CHECK(choose_by_default({kTank, step}, 2, 0) == "00");
+    CHECK(choose_by_default({kTank, step}, 3, 1) == "00");
+    CHECK(choose_by_default({kTank, ball({0.5, 0.5, 0.5}, 0.2)}, 3, 0) == "00");
+    CHECK(choose_by_default({kTank, block({0.5, 0.5, 0.5}, {0.05, 0.3, 0.3})}, 3, 0) == "00");
+}
