@@ -114,6 +114,7 @@ Result<solver::CollisionObject> make_collision_object(const proto::ObjectDesc& o
         Result<Motion> motion = make_motion(object, dimensions, spacing, path);
         if (!motion) return motion.error();
         collision.motion = std::move(*motion);
+        collision.is_belt = !object.motion;
     }
     return collision;
 }

@@ -55,6 +55,7 @@ struct CollisionObject {
     Primitive shape;  // at rest, in its own frame
     Slip slip{Slip::by_model};
     std::function<RigidState(double t)> motion;  // empty: at rest
+    bool is_belt{false};                         // the motion is that of a belt alone: nothing changes its place
 };
 
 // Particles outside fault the run; along a periodic axis what leaves at max enters at min.

@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "tests/bench/accuracy_costs.h"
 #include "tests/bench/accuracy_ladder.h"
 #include "tests/bench/accuracy_report.h"
 #include "tests/bench/accuracy_targets.h"
+#include "tests/bench/assignments.h"
 #include "tests/validation/support/case.h"
 
 namespace headrace::bench {
@@ -31,23 +31,6 @@ struct Options {
     LadderPlan ladders;
     std::string folder{std::string(HEADRACE_SOURCE_DIR) + "/tests/bench/results"};
 };
-
-// "true", "0.05", "0,-9.81" or a word.
-proto::ParameterValue parse_value(const std::string& text) {
-    if (text == "true" || text == "false") return text == "true";
-    proto::Vec3 numbers{};
-    std::istringstream cells(text);
-    std::string cell;
-    std::size_t count = 0;
-    while (std::getline(cells, cell, ',')) {
-        char* end{};
-        const double number = std::strtod(cell.c_str(), &end);
-        if (end == cell.c_str() || *end != '\0' || count == numbers.size()) return text;
-        numbers[count++] = number;
-    }
-    if (count == 1) return numbers[0];
-    return numbers;
-}
 
 std::string describe_run(const validation::Case& one, const validation::Outcome& outcome) {
     char text[256];
@@ -100,18 +83,6 @@ void define_options(CLI::App& app, Options& options) {
     app.add_flag("--brief", options.settings.brief, "One run: only the metrics that need the shortest time");
 }
 
-bool take_assignments(Options& options) {
-    for (const std::string& assignment : options.assignments) {
-        const auto split = assignment.find('=');
-        if (split == std::string::npos) {
-            std::cerr << "headrace_bench: --set needs name=value, got " << assignment << '\n';
-            return false;
-        }
-        options.settings.parameters[assignment.substr(0, split)] = parse_value(assignment.substr(split + 1));
-    }
-    return true;
-}
-
 bool run_each(const Options& options) {
     bool all_ran = true;
     for (const validation::Case& one : validation::cases()) {
@@ -146,7 +117,10 @@ int run_accuracy(int argc, char** argv) {
         for (const validation::Case& one : validation::cases()) std::cout << one.name << '\n';
         return 0;
     }
-    if (!take_assignments(options)) return 2;
+    if (const auto wrong = take_assignments(options.assignments, options.settings.parameters)) {
+        std::cerr << "headrace_bench: " << *wrong << '\n';
+        return 2;
+    }
     omp_set_num_threads(options.threads);
     validation::Settings& settings = options.settings;
     if (!options.model.empty()) settings.model = options.model;

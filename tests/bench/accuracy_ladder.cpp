@@ -181,6 +181,7 @@ std::vector<LadderOption> ladder_options(bool quick) {
     for (const char* form : {"fourtakas", "antuono"}) add("density_diffusion", std::string(form), form);
     add("state_equation", std::string("tait"), "tait");
     add("artificial_viscosity", 0.02, "0.02");
+    add("walls", std::string("integrals"), "integrals");
     options.push_back({"default", "thesis"});
     options.push_back({"stiff", "thesis"});
     return options;

@@ -40,7 +40,8 @@ Walls::Walls(int dimensions, double spacing, double depth) : dimensions_(dimensi
     particles_.dimensions = dimensions;
 }
 
-void Walls::rebuild(std::span<const CollisionObject> objects, const Domain& domain, double t) {
+void Walls::rebuild(std::span<const CollisionObject> objects, const Domain& domain, double t,
+                    std::span<const char> without_dummies) {
     space_ = make_sampling_space(dimensions_, spacing_, depth_, domain);
     objects_.clear();
     panels_.clear();
@@ -48,6 +49,7 @@ void Walls::rebuild(std::span<const CollisionObject> objects, const Domain& doma
     dummies_.clear();
     for (std::size_t k = 0; k < objects.size(); ++k) {
         objects_.emplace_back(objects[k], space_, t);
+        if (!without_dummies.empty() && without_dummies[k]) continue;
         const Body& body = objects_.back().body();
         SamplingSpace space = space_;
         space.is_bounded = !objects_.back().is_moving();

@@ -50,8 +50,10 @@ class Walls final : public Visibility {
 
     // Samples all objects anew, placed as they are at time t [s]. All are cut to the domain grown by the depth; along
     // periodic axes dummies stay inside the domain: the neighbour search continues them.
+    // without_dummies: of each object, is it a wall in another way (wall_choice.h)? Empty: none.
     // Throws std::length_error where more than kMaxWallParticles are needed.
-    void rebuild(std::span<const CollisionObject> objects, const Domain& domain, double t);
+    void rebuild(std::span<const CollisionObject> objects, const Domain& domain, double t,
+                 std::span<const char> without_dummies = {});
 
     // Moves what moves to time t. Returns true when any particle's place changed (order may change then too).
     bool move_to(double t);
@@ -63,6 +65,7 @@ class Walls final : public Visibility {
 
     bool has_moving() const;
     bool has_thin() const;
+    std::size_t objects() const { return objects_.size(); }
 
     // Signed distance to the object's surface [m], positive on the fluid's side; outward: unit normal into the fluid.
     double distance(std::size_t object, const Vec3& x, Vec3* normal = nullptr) const;

@@ -147,6 +147,7 @@ class Inspector {
         report_.concentration = in_.view.volume(i_) * in_.sums.W(0.0);
         for (Index j = 0; j < particles.size(); ++j) look_at_fluid(j);
         for (Index w = 0; w < in_.view.walls.size(); ++w) look_at_wall(w);
+        look_at_solids();
         std::stable_sort(report_.neighbours.begin(), report_.neighbours.end(),
                          [](const auto& one, const auto& other) { return one.distance < other.distance; });
         sums_.gravity = in_.gravity;
@@ -174,8 +175,14 @@ class Inspector {
         note_neighbour(in_.view.particles.id[j], {}, *pair);
         const double F = in_.sums.F(pair->r);
         add(sums_.pressure, terms_.pressure(i_, j, *pair, F));
-        if (in_.options.pressure.artificial_viscosity > 0.0)
-            add(sums_.artificial_viscosity, terms_.artificial_viscosity(i_, j, *pair, F));
+        terms_.accumulate_pressure(j, *pair, F, of_fluid_);
+        if (in_.options.pressure.artificial_viscosity > 0.0) {
+            const std::array<double, D> artificial = terms_.artificial_viscosity(i_, j, *pair, F);
+            add(sums_.artificial_viscosity, artificial);
+            // In the adjoint form the pass sums it with the pressure.
+            if (in_.options.is_adjoint)
+                add_to<D, double>(of_fluid_.pB_grad, scaled<D, double>(-in_.view.particles.rho[i_], artificial));
+        }
         if (in_.options.viscosity.mu > 0.0) add(sums_.viscosity, terms_.viscosity(i_, j, *pair, F));
     }
 
@@ -188,6 +195,28 @@ class Inspector {
         const double F = in_.sums.F(pair->r);
         add(sums_.wall_pressure, terms_.wall_pressure(i_, w, *pair, F));
         if (in_.options.viscosity.mu > 0.0) add(sums_.wall_viscosity, terms_.wall_viscosity(i_, w, *pair, F));
+    }
+
+    // Walls without particles: a neighbour each, at its distance and with its weight.
+    void look_at_solids() {
+        const std::array<double, D> x = vector_at<D>(in_.view.particles.x, i_);
+        if (!in_.view.solid.is_near(x)) return;
+        WallShare<D> share;
+        in_.view.solid.walls->find_share<D>(x, in_.options.viscosity.least_distance, share);
+        for (int a = 0; a < share.count; ++a) {
+            const WallPart<D>& part = share.part[a];
+            report_.concentration += part.gamma;
+            report_.neighbours.push_back(
+                {std::nullopt, in_.wall_names[part.surface->object], std::max(part.distance, 0.0), part.gamma});
+        }
+        PressureSums<D, double> walls;
+        add_solid_pressure<D>(in_.view.solid, in_.view.particles, i_, of_fluid_, terms_.own_pressure_of(i_, of_fluid_),
+                              walls);
+        add(sums_.wall_pressure, terms_.wall_pressure(i_, walls));
+        if (in_.options.viscosity.mu > 0.0) {
+            terms_.for_each_solid_viscosity(
+                i_, [&](std::size_t, const std::array<double, D>& a) { add(sums_.wall_viscosity, a); });
+        }
     }
 
     void note_neighbour(std::optional<Index> id, const std::string& object, const Pair<D, double>& pair) {
@@ -218,7 +247,8 @@ class Inspector {
             report_.terms.push_back({name, a});
             for (int k = 0; k < 3; ++k) report_.a[k] += a[k];
         };
-        const bool has_walls = in_.view.walls.size() > 0, is_viscous = in_.options.viscosity.mu > 0.0;
+        const bool has_walls = in_.view.walls.size() > 0 || in_.view.solid.walls != nullptr,
+                   is_viscous = in_.options.viscosity.mu > 0.0;
         report("pressure", sums_.pressure, true);
         report("wall_pressure", sums_.wall_pressure, has_walls);
         report("artificial_viscosity", sums_.artificial_viscosity, in_.options.pressure.artificial_viscosity > 0.0);
@@ -234,6 +264,7 @@ class Inspector {
     Vec3 x_;
     PairTerms<D> terms_;
     TermSums sums_;
+    PressureSums<D, double> of_fluid_;  // as the pressure pass sums them
     ParticleInspection report_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "server/solver/models/wcsph/passes.h"
+#include "server/solver/models/wcsph/solid_parts.h"
 #include "server/solver/models/wcsph/tension_passes.h"
 
 namespace headrace::solver {
@@ -13,6 +14,7 @@ struct WcsphView {
     const WcsphState& state;
     const WallParticles& walls;
     const WallState& wall_state;
+    SolidView solid{};
 
     double volume(std::size_t i) const { return particles.m[i] / particles.rho[i]; }
 };
@@ -42,21 +44,47 @@ class PairTerms {
 
     Vector pressure(Index i, Index j, const Pair<D, double>& pair, double F) const {
         PressureSums<D, double> sums;
+        accumulate_pressure(j, pair, F, sums);
+        return pressure_acceleration(i, sums);
+    }
+    // What the pair adds to the sums of the pressure pass, but for the artificial viscosity.
+    void accumulate_pressure(Index j, const Pair<D, double>& pair, double F, PressureSums<D, double>& sums) const {
         const Vector grad = scaled<D, double>(pair.V_j * F, pair.x_ij);
         if (options_.is_adjoint) {
             accumulate_adjoint<D, double>(grad, pressure_matrix_at<D>(view_.particles, view_.state, j), sums);
         } else {
             accumulate_difference<D, double>(grad, view_.particles.p[j], sums);
         }
-        return pressure_acceleration(i, sums);
     }
 
     Vector wall_pressure(Index i, Index w, const Pair<D, double>& pair, double F) const {
         PressureSums<D, double> sums;
         accumulate_difference<D, double>(scaled<D, double>(pair.V_j * F, pair.x_ij),
                                          static_cast<double>(view_.wall_state.p[w]), sums);
+        return wall_pressure(i, sums);
+    }
+    Vector wall_pressure(Index i, PressureSums<D, double> sums) const {
         if (is_controlled(i) && !options_.pressure.walls_suck) sums.grad_1 = {};
         return pressure_acceleration(i, sums);
+    }
+
+    Vector own_pressure_of(Index i, const PressureSums<D, double>& fluid) const {
+        if (!options_.is_adjoint) return own_pressure<D>(fluid, view_.particles.p[i]);
+        return own_pressure<D>(fluid, pressure_matrix_at<D>(view_.particles, view_.state, i),
+                               is_controlled(i) ? -1.0 : 1.0);
+    }
+
+    // visit(object, acceleration) for the walls without particles.
+    template <class Visit>
+    void for_each_solid_viscosity(Index i, Visit&& visit) const {
+        WallShare<D> share;
+        view_.solid.walls->find_share<D>(vector_at<D>(view_.particles.x, i), options_.viscosity.least_distance, share);
+        for (int a = 0; a < share.count; ++a) {
+            const Vector sum =
+                solid_viscosity<D>(share.part[a], vector_at<D>(view_.particles.v, i), matrix_at<D>(view_.state.B, i));
+            visit(std::size_t{share.part[a].surface->object},
+                  scaled<D, double>(options_.viscosity.mu / view_.particles.rho[i], sum));
+        }
     }
 
     Vector artificial_viscosity(Index i, Index j, const Pair<D, double>& pair, double F) const {

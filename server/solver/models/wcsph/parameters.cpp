@@ -119,6 +119,13 @@ const ChoiceRow<Slip> kSlip{
     &P::wall_slip,
     {"free_slip", "no_slip"},
     static_cast<int>(Slip::free_slip)};
+const ChoiceRow<WallKind> kWallKind{
+    {"walls", "1",
+     "What walls are made of: dummy particles, or integrals of the kernel over boxes, spheres and planes along the "
+     "axes that rest and do not overlap (other objects stay particles); automatic: integrals in 3D where all objects "
+     "allow it, are no spheres and slip; else particles."},
+    &P::walls,
+    {"automatic", "particles", "integrals"}};
 const ChoiceRow<WallSuction> kSuction{
     {"wall_suction", "1", "May walls have negative pressure? automatic: only in confined flow."},
     &P::wall_suction,
@@ -142,6 +149,7 @@ void for_each_row(Visit&& visit) {
     visit(kViscosity);
     visit(kTension);
     visit(kSlip);
+    visit(kWallKind);
     visit(kSuction);
     visit(kPrecision);
 }

@@ -17,6 +17,7 @@ enum class DiffusionForm { automatic, none, molteni_colagrossi, fourtakas, antuo
 enum class TensionForm { continuum, thesis };
 enum class ArtificialViscosity { reconstructed, monaghan };
 enum class WallSuction { automatic, allowed, clamped };
+enum class WallKind { automatic, particles, integrals };
 enum class Precision { automatic, single_precision, double_precision };
 
 struct WcsphParameters {
@@ -49,6 +50,7 @@ struct WcsphParameters {
     double shifting_factor{1.0};  // C [1]
     double shifting_limit{0.05};  // [spacings] per step
     bool tension_control{true};
+    WallKind walls{WallKind::automatic};
     WallSuction wall_suction{WallSuction::automatic};
     Precision precision{Precision::automatic};  // of the pair sums
 

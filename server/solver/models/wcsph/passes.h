@@ -13,6 +13,7 @@
 #include "server/solver/forces/pressure_gradient.h"
 #include "server/solver/forces/separation.h"
 #include "server/solver/forces/shifting.h"
+#include "server/solver/models/wcsph/solid_share.h"
 #include "server/solver/models/wcsph/state.h"
 #include "server/solver/pair.h"
 #include "server/solver/pairs/field_view.h"
@@ -79,6 +80,7 @@ struct PassData {
     WcsphState& state;
     const WallParticles& walls;
     WallState& wall_state;
+    SolidView solid{};  // walls without particles
 };
 
 // ---- once per advective step: moment matrix, surface, gradients, shift ----------------------------------------------
@@ -180,8 +182,14 @@ struct GeometryPass {
         return grad_v;
     }
 
-    void store(Index i, const Sums<double>& sums) const {
+    void store(Index i, const Sums<double>& of_pairs) const {
         WcsphState& state = data.state;
+        Sums<double> sums = of_pairs;
+        if (data.solid.is_near(vector_at<D>(data.particles.x, i))) {
+            add_solid_geometry<D>(
+                data.solid, data.particles, state.delta[i], i,
+                {sums.M, sums.grad_1, sums.grad_delta, sums.shift, HasGradients ? &sums.grad_v : nullptr});
+        }
         const Symmetric<D>& M = sums.M;
         const double eigenvalue = smallest_eigenvalue(M);
         const Symmetric<D> B = correction_matrix<D>(M, eigenvalue, options.correction_threshold);
@@ -294,7 +302,10 @@ struct ContinuityPass {
     }
 
     void store(Index i, const Sums<double>& sums) const {
-        double rate = -(1.0 + data.state.delta[i]) * sums.divergence;
+        double divergence = sums.divergence;
+        if (data.solid.is_near(vector_at<D>(data.particles.x, i)))
+            divergence += solid_divergence<D>(data.solid, data.particles, matrix_at<D>(data.state.B, i), i);
+        double rate = -(1.0 + data.state.delta[i]) * divergence;
         if constexpr (kIsDiffusive) rate += options.diffusion * sums.diffusion;
         data.state.delta_rate[i] = rate;
     }
@@ -388,21 +399,27 @@ struct PressurePass {
 
     void store(Index i, const Sums<double>& sums) const {
         const double p = data.particles.p[i], rho = data.particles.rho[i];
-        PressureSums<D, double> total = sums.fluid;
+        PressureSums<D, double> total = sums.fluid, walls = sums.walls;
         const Symmetric<D> B = matrix_at<D>(data.state.B, i);
         const bool is_controlled =
             IsAdjoint && options.controls_tension &&
             controls_tension(p, static_cast<double>(data.state.min_eigenvalue[i]),
                              static_cast<double>(data.state.unevenness[i]), options.tension_limits);
+        const double sign = is_controlled ? -1.0 : 1.0;
+        const auto pB = [&] { return pressure_matrix_at<D>(data.particles, data.state, i); };
+        if (data.solid.is_near(vector_at<D>(data.particles.x, i))) {
+            const std::array<double, D> own =
+                IsAdjoint ? own_pressure<D>(sums.fluid, pB(), sign) : own_pressure<D>(sums.fluid, p);
+            add_solid_pressure<D>(data.solid, data.particles, i, sums.fluid, own, walls);
+        }
         // Where walls do not suck, controlled tension would push the particle off the wall, the more the further it
         // goes: it ends at the fluid.
-        if (!is_controlled || options.walls_suck) add_to<D, double>(total.grad_1, sums.walls.grad_1);
+        if (!is_controlled || options.walls_suck) add_to<D, double>(total.grad_1, walls.grad_1);
         // A wall particle has B = 1: with the fluid particle's, walls would feed energy into still water.
-        add_to<D, double>(total.pB_grad, sums.walls.pB_grad);
+        add_to<D, double>(total.pB_grad, walls.pB_grad);
         std::array<double, D> a;
         if constexpr (IsAdjoint) {
-            a = adjoint_acceleration<D>(total, pressure_matrix_at<D>(data.particles, data.state, i),
-                                        is_controlled ? -1.0 : 1.0, rho);
+            a = adjoint_acceleration<D>(total, pB(), sign, rho);
         } else {
             a = difference_acceleration<D>(total, p, B, rho);
         }
@@ -488,7 +505,12 @@ struct ViscosityPass {
     }
 
     void store(Index i, const Sums<double>& sums) const {
-        for (int k = 0; k < D; ++k) data.state.a_slow[k][i] += options.mu / data.particles.rho[i] * sums.a[k];
+        std::array<double, D> a = sums.a;
+        if (data.solid.is_near(vector_at<D>(data.particles.x, i))) {
+            add_solid_viscosity<D>(data.solid, data.particles, matrix_at<D>(data.state.B, i), options.least_distance, i,
+                                   a);
+        }
+        for (int k = 0; k < D; ++k) data.state.a_slow[k][i] += options.mu / data.particles.rho[i] * a[k];
     }
 };
 

@@ -18,14 +18,23 @@ double skin_share(Index id, int turn) {
     return static_cast<double>(mix((std::uint64_t{id} << 2) | static_cast<std::uint64_t>(turn)) >> 11) * 0x1p-53;
 }
 
+std::vector<char> no_slip_of(std::span<const CollisionObject> objects, Slip by_model) {
+    std::vector<char> no_slip;
+    for (const CollisionObject& object : objects)
+        no_slip.push_back((object.slip == Slip::by_model ? by_model : object.slip) == Slip::no_slip);
+    return no_slip;
+}
+
 }  // namespace
 
 WallField::WallField(int dimensions, double spacing, double support)
     : dimensions_(dimensions), spacing_(spacing), walls_(dimensions, spacing, support) {}
 
 WallField::Change WallField::place(const Surroundings& surroundings, double t, bool anew, const WallOptions& options) {
+    if (anew) place_integrals(surroundings, options);
+    run_belts(surroundings, t);
     if (anew) {
-        walls_.rebuild(surroundings.objects, surroundings.domain, t);
+        walls_.rebuild(surroundings.objects, surroundings.domain, t, choice_.is_integral);
     } else if (!walls_.move_to(t)) {
         return Change::none;
     }
@@ -49,8 +58,30 @@ WallField::Change WallField::place(const Surroundings& surroundings, double t, b
     return Change::others;
 }
 
+WallChoice WallField::choose(std::span<const CollisionObject> objects, const Domain& domain, int dimensions,
+                             double support, const WallOptions& options) {
+    if (options.integrals) return choose_integral_walls(objects, domain, dimensions, support);
+    if (!options.by_default) return {std::vector<char>(objects.size(), 0), {}};
+    return choose_walls_by_default(objects, domain, dimensions, support, no_slip_of(objects, options.slip));
+}
+
+void WallField::place_integrals(const Surroundings& surroundings, const WallOptions& options) {
+    choice_ = choose(surroundings.objects, surroundings.domain, dimensions_, integrals_.support(), options);
+    integrals_.clear();
+    if (!options.integrals && !options.by_default) return;
+    place_integral_walls(surroundings.objects, surroundings.domain, choice_.is_integral,
+                         no_slip_of(surroundings.objects, options.slip), integrals_);
+}
+
+void WallField::run_belts(const Surroundings& surroundings, double t) {
+    integrals_.for_each_surface([&](IntegralSurface& surface) {
+        const CollisionObject& object = surroundings.objects[surface.object];
+        if (object.motion) surface.v = object.motion(t).surface_velocity;
+    });
+}
+
 bool WallField::put_in_order(const Domain& domain) {
-    if (std::exchange(is_in_order_, true) || is_empty()) return false;
+    if (std::exchange(is_in_order_, true) || size() == 0) return false;
     WallParticles& w = walls_.particles();
     order_.build(w.x, w.id, dimensions_, spacing_, domain);
     const auto permute = [this](auto& values, auto& scratch) {
@@ -98,6 +129,11 @@ double WallField::max_speed() const {
         for (int k = 0; k < dimensions_; ++k) v2 += w.v[k][i] * w.v[k][i];
         v2_max = std::max(v2_max, v2);
     }
+    integrals_.for_each_surface([&](const IntegralSurface& surface) {
+        double v2 = 0.0;
+        for (int k = 0; k < dimensions_; ++k) v2 += surface.v[k] * surface.v[k];
+        v2_max = std::max(v2_max, v2);
+    });
     return std::sqrt(v2_max);
 }
 
@@ -130,6 +166,10 @@ bool WallField::find_free_place(Vec3& x) const {
         }
     }
     return false;
+}
+
+bool WallField::may_be_in_integrals(const Vec3& x) const {
+    return dimensions_ == 2 ? integrals_.may_hold<2>({x[0], x[1]}) : integrals_.may_hold<3>({x[0], x[1], x[2]});
 }
 
 bool WallField::put_back(Index id, Vec3& x, Vec3& v, double dt) const {
@@ -174,13 +214,14 @@ std::uint64_t WallField::hold(Particles& particles, const PairNeighbours& neighb
     std::vector<std::uint64_t> counts((clusters + kBlock - 1) / kBlock);
     parallel_for(clusters, kBlock, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t c = first; c < last; ++c) {
-            if (!neighbours.is_near_walls(c)) continue;
+            if (!neighbours.is_near_walls(c) && integrals_.is_empty()) continue;
             for (std::size_t i = c * kClusterSize; i < std::min((c + 1) * kClusterSize, particles.size()); ++i) {
                 Vec3 x{}, v{};
                 for (int k = 0; k < dimensions_; ++k) {
                     x[k] = particles.x[k][i];
                     v[k] = particles.v[k][i];
                 }
+                if (!neighbours.is_near_walls(c) && !may_be_in_integrals(x)) continue;
                 if (!put_back(particles.id[i], x, v, dt)) continue;
                 ++counts[first / kBlock];
                 for (int k = 0; k < dimensions_; ++k) {

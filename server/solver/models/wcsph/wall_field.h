@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "server/solver/boundaries/integral_walls.h"
+#include "server/solver/boundaries/wall_choice.h"
 #include "server/solver/boundaries/wall_particles.h"
 #include "server/solver/model.h"
 #include "server/solver/models/wcsph/state.h"
@@ -14,6 +16,8 @@ namespace headrace::solver {
 struct WallOptions {
     Vec3 gravity{};              // [m/s^2]
     Slip slip{Slip::free_slip};  // of objects that do not say
+    // Integrals in place of dummy particles: where an object allows it; only where the scene as a whole does.
+    bool integrals{false}, by_default{false};
 };
 
 class WallField {
@@ -26,12 +30,21 @@ class WallField {
     // Sorts them as they are now, for the lists. Returns whether anything has changed since they were last sorted.
     bool put_in_order(const Domain& domain);
 
-    bool is_empty() const { return walls_.particles().size() == 0; }
+    // What integrals are made of; before they are placed for the first time.
+    bool has_kernel() const { return integrals_.support() > 0.0; }
+    // Which objects would be integrals.
+    static WallChoice choose(std::span<const CollisionObject> objects, const Domain& domain, int dimensions,
+                             double support, const WallOptions& options);
+    void set_kernel(const SectionKernel& kernel) { integrals_ = IntegralWalls(kernel, spacing_); }
+
+    bool is_empty() const { return size() == 0 && integrals_.is_empty(); }
     bool has_moving() const { return walls_.has_moving(); }
     std::size_t size() const { return walls_.particles().size(); }
     double max_speed() const;  // [m/s]
 
     const Walls& walls() const { return walls_; }
+    const IntegralWalls& integrals() const { return integrals_; }
+    const std::string& choice_remark() const { return choice_.remark; }
     const WallParticles& particles() const { return walls_.particles(); }
     WallState& state() { return state_; }
     const WallState& state() const { return state_; }
@@ -44,6 +57,9 @@ class WallField {
     std::uint64_t hold(Particles& particles, const PairNeighbours& neighbours, double dt) const;
 
   private:
+    void place_integrals(const Surroundings& surroundings, const WallOptions& options);
+    void run_belts(const Surroundings& surroundings, double t);
+    bool may_be_in_integrals(const Vec3& x) const;
     void evaluate_gravity(const Surroundings& surroundings, double t, const Vec3& gravity);
     bool put_back(Index id, Vec3& x, Vec3& v, double dt) const;
     bool find_free_place(Vec3& x) const;
@@ -52,6 +68,8 @@ class WallField {
     int dimensions_;
     double spacing_;  // [m]
     Walls walls_;
+    IntegralWalls integrals_;
+    WallChoice choice_;
     WallState state_;
     ClusterOrder order_;
     bool is_in_order_{false};

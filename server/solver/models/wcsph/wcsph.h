@@ -1,5 +1,5 @@
-// The accurate model: weakly compressible SPH with corrected gradients, density diffusion, shifting and dummy-particle
-// walls. Each step:
+// The accurate model: weakly compressible SPH with corrected gradients, density diffusion, shifting, and walls of dummy
+// particles or of integrals of the kernel. Each step:
 //
 //   neighbours, moment matrices, shift, slow forces (gravity, body force, viscosity, surface tension)
 //   n acoustic steps, each a kick-drift-kick with one pressure evaluation:

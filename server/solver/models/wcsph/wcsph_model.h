@@ -138,14 +138,40 @@ class Wcsph final : public Model {
         return clamps ? 0.0 : -std::numeric_limits<double>::infinity();
     }
     static FieldView volumes(const Particles& particles) { return FieldView::quotient(particles.m, particles.rho); }
-    PassData data(Particles& particles) { return {particles, state_, walls_.particles(), walls_.state()}; }
+    // Surface tension asks for the fluid's places in the walls, too: it takes dummies.
+    WallOptions wall_options() const {
+        const bool may = p_.surface_tension == 0.0;
+        return {p_.gravity, p_.wall_slip, may && p_.walls == WallKind::integrals,
+                may && p_.walls == WallKind::automatic};
+    }
+    SolidView solid_view() const {
+        if (walls_.integrals().is_empty()) return {};
+        SolidView view;
+        view.walls = &walls_.integrals();
+        view.gravity = p_.gravity;
+        view.a_body = wall_gravity_[0].empty() ? nullptr : &wall_gravity_;
+        view.inv_c2 = 1.0 / (c0_ * c0_);
+        view.walls_suck = least_wall_pressure() < 0.0;
+        view.inner_low = view.walls->inner_low();
+        view.inner_high = view.walls->inner_high();
+        view.has_obstacles = view.walls->has_obstacles();
+        return view;
+    }
+    PassData data(Particles& particles) {
+        return {particles, state_, walls_.particles(), walls_.state(), solid_view()};
+    }
 
-    WcsphView view(const Particles& particles) const { return {particles, state_, walls_.particles(), walls_.state()}; }
-    PressureOptions pressure_options() const;  // of one acoustic step
+    WcsphView view(const Particles& particles) const {
+        return {particles, state_, walls_.particles(), walls_.state(), solid_view()};
+    }
+    // Of the pressure pass in the present state.
+    SolidSums record_solid_sums(const Particles& particles) const;
+    PressureOptions pressure_options() const;
     int artificial_weight(int k) const;
     ViscosityOptions viscosity_options() const { return {p_.viscosity, 0.25 * spacing_}; }
     TensionOptions tension_options() const { return {p_.surface_tension, flat_surface_, kThesisThreshold / support_}; }
     TermOptions term_options() const;
+    std::string walls_reason() const;
     EnergySetting energy_setting(const Surroundings& surroundings) const {
         return make_energy_setting(p_.gravity, surroundings.domain, p_.rest_density, eos_);
     }
@@ -162,6 +188,7 @@ class Wcsph final : public Model {
         if (energies_.is_on()) energies_.count_loss(before, stored_energy(particles, surroundings));
     }
 
+    SectionKernel section_kernel() const;  // for the walls, while sums_ lives
     // Of the kernel, support and precision of now; the neighbours are not known yet.
     void make_sums();
     void set_flat_surface() {
@@ -220,6 +247,7 @@ class Wcsph final : public Model {
     Particles midpoint_;  // x, v where the body force is evaluated; empty without one
     std::unique_ptr<WcsphSums> sums_;
     FlatSurface flat_surface_;  // under this kernel
+    VectorField wall_gravity_;  // [m/s^2] gravity and body force, for integral walls; empty without either
     VectorField tension_x_;     // [m] where surface tension is evaluated; empty without it
     Vec3 period_{};             // [m]
 

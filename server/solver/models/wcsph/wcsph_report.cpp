@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "server/solver/models/wcsph/solid_loads.h"
 #include "server/solver/models/wcsph/sound_speed.h"
 #include "server/solver/models/wcsph/wcsph_model.h"
 #include "server/solver/neighbours.h"
@@ -76,8 +77,10 @@ std::optional<std::string> Wcsph::refuse_domain(const Domain& domain) const {
 // Tried out: how many wall particles they need is known when they have been made.
 std::optional<std::string> Wcsph::refuse_objects(std::span<const CollisionObject> objects, const Domain& domain,
                                                  double t) const {
+    const double support = p_.support_over_spacing * spacing_;
+    const WallChoice choice = WallField::choose(objects, domain, dimensions_, support, wall_options());
     try {
-        Walls(dimensions_, spacing_, p_.support_over_spacing * spacing_).rebuild(objects, domain, t);
+        Walls(dimensions_, spacing_, support).rebuild(objects, domain, t, choice.is_integral);
     } catch (const std::length_error& problem) {
         return problem.what();
     }
@@ -118,6 +121,15 @@ const char* name_of(DensityDiffusion form) {
 
 }  // namespace
 
+std::string Wcsph::walls_reason() const {
+    std::string what;
+    if (!walls_.integrals().is_empty())
+        what = walls_.size() == 0 ? "integrals of the kernel" : "integrals of the kernel beside ";
+    if (walls_.size() > 0) what += "pressure of " + std::to_string(walls_.size()) + " wall particles";
+    if (!walls_.choice_remark().empty()) what += " (" + walls_.choice_remark() + ")";
+    return what + "; " + std::to_string(put_back_) + " fluid particles put back on a surface so far";
+}
+
 // A stage that is fused with another says so: its time is counted there.
 std::vector<Stage> Wcsph::plan(const Surroundings& surroundings) const {
     std::vector<Stage> stages;
@@ -152,10 +164,7 @@ std::vector<Stage> Wcsph::plan(const Surroundings& surroundings) const {
     add("density_diffusion", diffusion() != DensityDiffusion::none,
         std::string(name_of(diffusion())) + " form; timed with continuity, one loop",
         p_.density_diffusion == DiffusionForm::none ? "form is none" : "factor is 0", 0.0);
-    add("walls", has_walls,
-        "pressure of " + std::to_string(walls_.size()) + " wall particles; " + std::to_string(put_back_) +
-            " fluid particles put back on a surface so far",
-        no_walls, seconds_[kWalls]);
+    add("walls", has_walls, walls_reason(), no_walls, seconds_[kWalls]);
     add("pressure_force", true, is_adjoint() ? "adjoint form" : "difference form", "", seconds_[kPressure]);
     add("artificial_viscosity", artificial_viscosity() != 0.0, "timed with pressure_force, one loop",
         p_.artificial_viscosity > 0.0 ? "the fluid's own viscosity does it all" : "coefficient is 0", 0.0);
@@ -181,14 +190,33 @@ TermOptions Wcsph::term_options() const {
 std::vector<ObjectLoad> Wcsph::object_loads(const Particles& particles, const Surroundings& surroundings) const {
     std::vector<ObjectLoad> loads(surroundings.objects.size());
     if (walls_.is_empty()) return loads;
-    const std::vector<WallForce> forces =
-        compute_wall_forces(load_input(surroundings), view(particles), *sums_, term_options());
-    const std::vector<ObjectLoad> known = sum_object_loads(walls_.particles(), forces, object_names_.size());
+    const WcsphView seen = view(particles);
+    const TermOptions options = term_options();
+    const std::vector<WallForce> forces = compute_wall_forces(load_input(surroundings), seen, *sums_, options);
+    std::vector<ObjectLoad> known = sum_object_loads(walls_.particles(), forces, object_names_.size());
+    if (!walls_.integrals().is_empty()) add_solid_loads(seen, record_solid_sums(particles), options, known);
     for (std::size_t o = 0; o < loads.size(); ++o) {
         const auto found = std::find(object_names_.begin(), object_names_.end(), surroundings.objects[o].name);
         if (found != object_names_.end()) loads[o] = known[static_cast<std::size_t>(found - object_names_.begin())];
     }
     return loads;
+}
+
+SolidSums Wcsph::record_solid_sums(const Particles& particles) const {
+    SolidSums sums;
+    sums.objects.resize(object_names_.size());
+    for (SolidSums::OfObject& object : sums.objects) {
+        for (VectorField* field : {&object.grad_1, &object.pB_grad})
+            for (int k = 0; k < dimensions_; ++k) (*field)[k].assign(particles.size(), 0.0);
+    }
+    // Copies, since the pass writes accelerations.
+    Particles scratch = particles;
+    WcsphState state = state_;
+    WallState wall_state = walls_.state();
+    PassData data{scratch, state, walls_.particles(), wall_state, solid_view()};
+    data.solid.record = &sums;
+    sums_->pressure(data, is_adjoint(), pressure_options());
+    return sums;
 }
 
 // Walls at rest do no work: they are not asked.

@@ -49,6 +49,8 @@ void Wcsph::put_in_order(Particles& particles, const Surroundings& surroundings)
         order_.permute(*field, narrow_scratch);
     for (MatrixField* field : {&state_.B, &state_.strain})
         for (int k = 0; k < symmetric_size(dimensions_); ++k) order_.permute((*field)[k], narrow_scratch);
+    if (!wall_gravity_[0].empty())
+        for (int k = 0; k < dimensions_; ++k) order_.permute(wall_gravity_[k], scratch);
     if (energies_.is_on()) energies_.permute(order_, scratch);
     order_.forget_moves();
     ++sorts_;
@@ -98,7 +100,10 @@ void Wcsph::find_neighbours(Particles& particles, const Surroundings& surroundin
 }
 
 void Wcsph::place_walls(const Surroundings& surroundings, double t, bool anew) {
-    const WallField::Change change = walls_.place(surroundings, t, anew, {p_.gravity, p_.wall_slip});
+    const WallOptions options = wall_options();
+    if ((options.integrals || (options.by_default && dimensions_ == 3)) && !walls_.has_kernel())
+        walls_.set_kernel(section_kernel());
+    const WallField::Change change = walls_.place(surroundings, t, anew, options);
     using enum WallField::Change;
     if (change == others) has_lists_ = false;
     if (change == moved && has_lists_) has_lists_ = neighbours_->move_walls(walls_.particles().x, walls_.particles().V);
@@ -118,6 +123,16 @@ void Wcsph::make_sums() {
     sums_ = make_wcsph_sums({dimensions_, p_.kernel, support_}, *neighbours_);
     isa_ = instruction_set();
     set_flat_surface();
+}
+
+SectionKernel Wcsph::section_kernel() const {
+    const WcsphSums* sums = sums_.get();
+    const double W_dx = sums->W(spacing_);
+    const auto F_shifted = [=](double r) {
+        return shifting_factor<2, double>({{}, r * r, r, 1.0}, sums->F(r), sums->W(r) / W_dx);
+    };
+    return {dimensions_, support_, [=](double r) { return sums->W(r); }, [=](double r) { return sums->F(r); },
+            F_shifted};
 }
 
 // ---- once per step --------------------------------------------------------------------------------------------------
@@ -205,6 +220,7 @@ void Wcsph::add_body_force(const Particles& particles, const Surroundings& surro
         });
     }
     (*surroundings.body_force)(surroundings.time + half, midpoint_, state_.a_slow);
+    if (!walls_.integrals().is_empty()) wall_gravity_ = state_.a_slow;
 }
 
 // On the positions that the step's force stands for: held at its start, the short capillary waves would gain energy.
