@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kVortexEdge = 46;  // [spacings]
 constexpr int kListLife = 24;    // steps: a window has a new list or two
-constexpr int kFirstSteps = 4;   // before the clock starts
+constexpr int kFirstSteps = 1;   // before the clock starts
 
 struct PlainGrowth {
     SpeedRow row;

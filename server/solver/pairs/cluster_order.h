@@ -3,6 +3,8 @@
 // Space is divided into rows of square cross-section, about as wide as the edge of a cube of four points, and each row
 // into bins about a quarter of that long. Points are sorted by row and bin; every four of them are a cluster. Rows are
 // walked through to and fro, so that a cluster at a row's end has its other points in the next row's near end.
+// Dense layout: rows are taken strip by strip, each strip layer by layer, so that what is near in space is near in
+// memory however large the whole is.
 //
 // Within a bin points stand in the order of their ids: the order is a function of places and ids alone.
 //

@@ -213,6 +213,20 @@ TEST_CASE("Walls.ObjectsAtRestNeverMove") {
     CHECK(same(walls.particles(), start));
 }
 
+TEST_CASE("Walls.OnlyWhereObjectsMoveHaveDummiesVelocities") {
+    const CollisionObject tank = wall(box_between({}, {1.0, 1.0, 1.0}), Role::container);
+    const WallParticles at_rest = make_walls(3, {tank}, kWide).particles();
+    REQUIRE(at_rest.size() > 0);
+    CHECK(at_rest.sheet.empty());
+    const WallParticles swinging = make_walls(3, {moving(tank, swing)}, kWide, 0.0).particles();
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(at_rest.v[axis].empty());
+        CHECK(at_rest.a[axis].empty());
+        CHECK(swinging.v[axis].size() == swinging.size());
+        CHECK(swinging.a[axis].size() == swinging.size());
+    }
+}
+
 TEST_CASE("Walls.MovingThereEqualsBeingBuiltThere") {
     // A gate that goes down through the floor, a post after it in the scene, a tank between them: cuts of all kinds
     // change, by long ways and by some that change none.
