@@ -297,9 +297,9 @@ PressureOptions Wcsph::pressure_options() const {
 }
 
 // The artificial viscosity of how many acoustic steps acts with the k-th of a step: it is summed once for several, an
-// impulse for all of them (Tuckerman, Berne, Martyna 1992, J. Chem. Phys. 97, 1990, for a force that only damps). A
-// wave of two spacings loses about 1.3 alpha of its velocity in one acoustic step at the default cfl: an impulse may
-// take half of it.
+// impulse for all of them (as Tuckerman 1992 sums slow forces). It only damps, and an impulse does so as long as it
+// takes less than the velocity there is. As a viscosity of alpha h c0/(2 (D + 2)) it takes 1.7 alpha (3D: 1.3) of a
+// wave of two spacings in an acoustic step at the default cfl: two thirds of it at most in an impulse.
 int Wcsph::artificial_weight(int k) const {
     if (artificial_viscosity() == 0.0) return 0;
     constexpr double kMostAlpha = 0.4;
