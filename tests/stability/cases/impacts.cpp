@@ -16,7 +16,8 @@ constexpr double kGap = 0.02;   // [m] to the wall at the start
 
 // A block of this side that flies down onto y = 0; its middle is at x = z = 0.
 proto::SceneDesc falling_block(int dimensions, double speed) {
-    proto::SceneDesc scene = make_scene(dimensions, kDx, dimensions == 2 ? 3.0 : 0.6);
+    // Wide enough for the jet along a floor, which runs at twice the block's speed and more.
+    proto::SceneDesc scene = make_scene(dimensions, kDx, dimensions == 2 ? 3.0 : 1.2);
     scene.domain.min[1] = -3.0;
     const double half = 0.5 * (dimensions == 2 ? kSide : kSide3), depth = dimensions == 2 ? 0.0 : half;
     scene.fluids.push_back(
