@@ -7,7 +7,7 @@
 namespace headrace::solver {
 
 // Confined flow has no surface to give way at: particles that a long step has crowded stir it. Lid-driven cavity at
-// Re = 100 and 1/50, t = 12 to 30 s: rms of the centrelines' error at most 0.006, with the whole criterion 0.012.
+// Re = 100 and 1/50, t = 12 to 30 s: rms of the centrelines' error at most 0.0065, with the whole criterion 0.012.
 constexpr double kConfinedShare = 0.6;
 
 StepChoice choose_step(const StepCriteria& c) {
