@@ -34,12 +34,39 @@ void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size
     boxes_.resize(clusters());
     start_.resize(moves ? clusters() * static_cast<std::size_t>(dimensions) * kClusterSize : 0);
     motion_.resize((clusters() + kMotionBlock - 1) / kMotionBlock);
+    settled_.assign(motion_.size(), MotionBox{});
     pack<true>(x, V);
 }
 
 template <class S>
 void ClusterPoints<S>::update(const VectorField& x, const FieldView& V) {
     pack<false>(x, V);
+}
+
+template <class S>
+void ClusterPoints<S>::settle() {
+    if (start_.size() == 0) return;
+    const std::size_t places = static_cast<std::size_t>(dimensions_) * kClusterSize;
+    parallel_for(clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t c = first; c < last; ++c) {
+            for (std::size_t l = 0; l < places; ++l)
+                start_[c * places + l] = static_cast<float>(records_[c * stride_ + l]);
+        }
+    });
+    settled_ = total_motion();
+    motion_.assign(motion_.size(), MotionBox{});
+}
+
+template <class S>
+std::vector<MotionBox> ClusterPoints<S>::total_motion() const {
+    std::vector<MotionBox> total = settled_;
+    for (std::size_t b = 0; b < total.size(); ++b) {
+        for (int k = 0; k < 3; ++k) {
+            total[b].low[k] += motion_[b].low[k];
+            total[b].high[k] += motion_[b].high[k];
+        }
+    }
+    return total;
 }
 
 template <class S>

@@ -36,7 +36,7 @@ class ClusterPoints {
     // The points have got a new order: chooses reference points. moves: will there be an update()?
     void start(const VectorField& x, const FieldView& V, std::size_t count, int dimensions, double support,
                bool moves = true);
-    // They have moved, or their volumes have changed. Finds their displacement since start(). [m], [m^3]
+    // They have moved, or their volumes have changed. Finds their displacement since start() or settle(). [m], [m^3]
     void update(const VectorField& x, const FieldView& V);
 
     std::size_t size() const { return count_; }
@@ -56,7 +56,13 @@ class ClusterPoints {
     double reference_step() const { return step_; }  // [m]
     const ClusterBox& box(std::size_t cluster) const { return boxes_[cluster]; }
 
-    const std::vector<MotionBox>& motion() const { return motion_; }  // per block of clusters, since start()
+    // Displacement counts anew from the places of now.
+    void settle();
+
+    // Per block of clusters, since start() or settle().
+    const std::vector<MotionBox>& motion() const { return motion_; }
+    // Since start(): bounds, the sum of those between one settle() and the next.
+    std::vector<MotionBox> total_motion() const;
 
   private:
     template <bool IsStart>
@@ -69,8 +75,8 @@ class ClusterPoints {
     AlignedArray<S> records_;
     std::vector<std::array<std::int32_t, 3>> reference_;
     std::vector<ClusterBox> boxes_;
-    AlignedArray<float> start_;  // [clusters][D][4] relative places when the order was new; empty where none moves
-    std::vector<MotionBox> motion_;
+    AlignedArray<float> start_;  // [clusters][D][4] relative places that motion_ counts from; empty where none moves
+    std::vector<MotionBox> motion_, settled_;
 };
 
 extern template class ClusterPoints<float>;

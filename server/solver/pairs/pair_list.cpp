@@ -1,8 +1,10 @@
 #include "server/solver/pairs/pair_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "server/solver/pairs/reach_filter.h"
 #include "server/solver/parallel.h"
 
 namespace headrace::solver {
@@ -10,7 +12,7 @@ namespace {
 
 // Blocks further apart than the reach and this many skins are not compared one by one: all displacements together may
 // not exceed it.
-constexpr double kFarSkins = 4.0;
+constexpr double kFarSkins = 3.0;
 
 // Relative places are rounded: the reach is longer by this share.
 constexpr double kRounding = 4e-6;
@@ -35,12 +37,54 @@ MotionBox join(const std::vector<MotionBox>& boxes, MotionBox all) {
     return all;
 }
 
+// Motion of the blocks of two kinds of points against each other.
+class RelativeMotion {
+  public:
+    RelativeMotion(std::vector<MotionBox> centres, std::vector<MotionBox> neighbours)
+        : centres_(std::move(centres)), neighbours_(std::move(neighbours)) {
+        const MotionBox all = join(neighbours_, join(centres_, centres_.front()));
+        largest2_ = difference2(all, all);
+        for (int k = 0; k < 3; ++k) middle_[k] = 0.5f * (all.low[k] + all.high[k]);
+        centre_radii_ = radii(centres_);
+        neighbour_radii_ = radii(neighbours_);
+    }
+
+    double largest2() const { return largest2_; }  // of any block against any
+    // The radii about the middle of all motion decide most cases.
+    bool is_longer(std::size_t centre, std::size_t neighbour, double way) const {
+        if (centre_radii_[centre] + neighbour_radii_[neighbour] < static_cast<float>(way)) return false;
+        return difference2(centres_[centre], neighbours_[neighbour]) > way * way;
+    }
+
+  private:
+    std::vector<float> radii(const std::vector<MotionBox>& boxes) const {
+        constexpr float kRoundedUp = 1.0f + 1e-5f;
+        std::vector<float> radii(boxes.size());
+        for (std::size_t b = 0; b < boxes.size(); ++b) {
+            float sum = 0.0f;
+            for (int k = 0; k < 3; ++k) {
+                const float longest = std::max(boxes[b].high[k] - middle_[k], middle_[k] - boxes[b].low[k]);
+                sum += longest * longest;
+            }
+            radii[b] = std::sqrt(sum) * kRoundedUp;
+        }
+        return radii;
+    }
+
+    std::vector<MotionBox> centres_, neighbours_;
+    std::vector<float> centre_radii_, neighbour_radii_;
+    std::array<float, 3> middle_{};
+    double largest2_{};
+};
+
 }  // namespace
 
 template <class S>
 void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
                         const ClusterOrder& order, const ReachOptions& options) {
+    support_ = options.support;
     skin_ = options.skin;
+    inner_skin_ = std::min(options.inner_skin, options.skin);
     far_skin_ = kFarSkins * options.skin;
     const std::size_t count = (centres.clusters() + kMotionBlock - 1) / kMotionBlock;
     blocks_.resize(count);
@@ -97,7 +141,7 @@ void PairList<S>::list_near(Scratch& scratch, std::size_t centre) {
     Index begin = 0;
     for (std::size_t w = 0; w < near.way_count; ++w) {
         const Index end = near.end_of_way[w];
-        if (end > begin) scratch.groups.push_back({base + begin, base + end, near.ways[w].offset});
+        if (end > begin) scratch.groups.push_back({base + begin, base + end, base + end, near.ways[w].offset});
         begin = end;
     }
     scratch.entries.insert(scratch.entries.end(), near.clusters, near.clusters + begin);
@@ -105,7 +149,9 @@ void PairList<S>::list_near(Scratch& scratch, std::size_t centre) {
 
 template <class S>
 void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clusters) {
+    support_ = list.support_;
     skin_ = list.skin_;
+    inner_skin_ = list.inner_skin_;
     far_skin_ = list.far_skin_;
     blocks_.resize((centre_clusters + kMotionBlock - 1) / kMotionBlock);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
@@ -124,7 +170,7 @@ void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clus
                 const Reverse reverse{static_cast<Index>(b * kMotionBlock + c),
                                       {-group.offset[0], -group.offset[1], -group.offset[2]},
                                       !block.seen.empty()};
-                for (Index e = group.begin; e < group.end; ++e) entries[next[block.entries[e]]++] = reverse;
+                for (Index e = group.begin; e < group.listed_end; ++e) entries[next[block.entries[e]]++] = reverse;
             }
         }
     }
@@ -157,7 +203,8 @@ void PairList<S>::build_transposed_block(std::size_t b, const std::vector<Index>
             for (Index e = begin; e < end; ++e) {
                 if (entries[e].offset == offset) scratch.entries.push_back(entries[e].cluster);
             }
-            scratch.groups.push_back({from, static_cast<Index>(scratch.entries.size()), offset});
+            const auto to = static_cast<Index>(scratch.entries.size());
+            scratch.groups.push_back({from, to, to, offset});
         }
     }
     block.first_group[kMotionBlock] = static_cast<Index>(scratch.groups.size());
@@ -188,23 +235,58 @@ void PairList<S>::list_nearby(PairBlock<S>& block, const VectorField& x, int dim
 }
 
 template <class S>
-bool PairList<S>::covers(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const {
-    if (centres.motion().empty() || neighbours.motion().empty()) return true;
-    const MotionBox all = join(neighbours.motion(), join(centres.motion(), centres.motion().front()));
-    const double together2 = difference2(all, all);
-    if (together2 <= skin_ * skin_) return true;
-    if (!(together2 <= (skin_ + far_skin_) * (skin_ + far_skin_))) return false;
+void PairList<S>::prune(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) {
+    if (inner_skin_ >= skin_) return;
+    scratch_.resize(static_cast<std::size_t>(max_threads()));
+    const double reach = (support_ + inner_skin_) * (1.0 + kRounding);
+    parallel_for(blocks_.size(), 4, [&](std::size_t begin, std::size_t end, int thread) {
+        Scratch& scratch = scratch_[static_cast<std::size_t>(thread)];
+        for (std::size_t b = begin; b < end; ++b) {
+            PairBlock<S>& block = blocks_[b];
+            if (block.entries.empty()) continue;
+            scratch.far.resize(std::max(scratch.far.size(), block.entries.size()));
+            scratch.far_seen.resize(scratch.far.size());
+            PruneQuery<S> query;
+            query.dimensions = centres.dimensions();
+            query.records = neighbours.record(0);
+            query.entries = block.entries.data();
+            query.seen = block.seen.empty() ? nullptr : block.seen.data();
+            query.reach = reach;
+            query.far = scratch.far.data();
+            query.far_seen = scratch.far_seen.data();
+            for (std::size_t c = 0; c < kMotionBlock; ++c) {
+                query.groups = block.groups.data() + block.first_group[c];
+                query.group_count = block.first_group[c + 1] - block.first_group[c];
+                if (query.group_count == 0) continue;
+                const std::size_t cluster = b * kMotionBlock + c;
+                query.centre = centres.record(cluster);
+                query.centre_points = std::min(kClusterSize, centres.size() - cluster * kClusterSize);
+                prune_to_reach(query);
+            }
+        }
+    });
+}
+
+template <class S>
+Coverage PairList<S>::coverage(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const {
+    if (centres.motion().empty() || neighbours.motion().empty()) return Coverage::whole;
+    const RelativeMotion total(centres.total_motion(), neighbours.total_motion());
+    if (!(total.largest2() <= (skin_ + far_skin_) * (skin_ + far_skin_))) return Coverage::lost;
+    const RelativeMotion recent(centres.motion(), neighbours.motion());
+    if (total.largest2() <= skin_ * skin_ && recent.largest2() <= inner_skin_ * inner_skin_) return Coverage::whole;
     return parallel_reduce(
-        blocks_.size(), true,
+        blocks_.size(), Coverage::whole,
         [&](std::size_t first, std::size_t last) {
+            Coverage coverage = Coverage::whole;
             for (std::size_t b = first; b < last; ++b) {
                 for (const Index j : blocks_[b].nearby) {
-                    if (difference2(centres.motion()[b], neighbours.motion()[j]) > skin_ * skin_) return false;
+                    if (total.is_longer(b, j, skin_)) return Coverage::lost;
+                    if (coverage == Coverage::whole && recent.is_longer(b, j, inner_skin_)) coverage = Coverage::listed;
                 }
             }
-            return true;
+            return coverage;
         },
-        [](bool a, bool b) { return a && b; });
+        [](Coverage a, Coverage b) { return std::min(a, b); });
 }
 
 template <class S>
@@ -215,7 +297,7 @@ void PairList<S>::refresh(const PairVisibility& visibility, std::size_t centres,
             if (block.seen.empty()) continue;
             for (std::size_t c = 0; c < kMotionBlock; ++c) {
                 for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
-                    for (Index e = block.groups[g].begin; e < block.groups[g].end; ++e) {
+                    for (Index e = block.groups[g].begin; e < block.groups[g].listed_end; ++e) {
                         std::uint16_t seen = 0;
                         for (std::size_t k = 0; k < kClusterSize * kClusterSize; ++k) {
                             const std::size_t i = (b * kMotionBlock + c) * kClusterSize + k / kClusterSize;
@@ -242,7 +324,8 @@ bool PairList<S>::has_entries(std::size_t centre_cluster) const {
 template <class S>
 std::size_t PairList<S>::entries() const {
     std::size_t count = 0;
-    for (const PairBlock<S>& block : blocks_) count += block.entries.size();
+    for (const PairBlock<S>& block : blocks_)
+        for (const PairGroup<S>& group : block.groups) count += group.end - group.begin;
     return count;
 }
 

@@ -1,8 +1,10 @@
 // Who is near whom: for every cluster of centres the clusters that have a point within reach of one of its points.
 //
-// Exact and reused: the reach is the support and a skin, and covers() tells from actual displacements whether a pair
+// Exact and reused: the reach is the support and a skin, and coverage() tells from actual displacements whether a pair
 // within the support could be missing. Displacements are compared block against block, so a body of fluid that is
-// carried along does not wear the list out; only relative motion does.
+// carried along does not wear the list out; only relative motion does. In between the list is pruned: the loops see
+// those entries only that a smaller skin reaches, as far as displacements since then allow (the inner and outer list of
+// Pall et al. 2020, J. Chem. Phys. 153, 134110).
 #pragma once
 
 #include <array>
@@ -12,17 +14,10 @@
 #include "server/solver/pairs/cluster_order.h"
 #include "server/solver/pairs/cluster_points.h"
 #include "server/solver/pairs/nearby_clusters.h"
+#include "server/solver/pairs/pair_group.h"
 #include "server/solver/visibility.h"
 
 namespace headrace::solver {
-
-// Entries [begin, end) that see the centre's cluster displaced by `offset` [m]: from its reference point and period to
-// theirs.
-template <class S>
-struct PairGroup {
-    Index begin{}, end{};
-    std::array<S, 3> offset{};
-};
 
 // The lists of kMotionBlock clusters of centres.
 template <class S>
@@ -45,8 +40,16 @@ class PairVisibility {
 struct ReachOptions {
     double support{};                    // [m]
     double skin{};                       // [m]
+    double inner_skin{};                 // [m] of the pruned list
     Vec3 period{};                       // [m]
     const PairVisibility* visibility{};  // null: all pairs may interact
+};
+
+// Are all pairs within the support in the list, after the motion since it was made?
+enum class Coverage {
+    lost,    // one may be missing: build() is due
+    listed,  // yes, but maybe among those that were pruned away: prune() is due
+    whole,
 };
 
 template <class S>
@@ -56,18 +59,21 @@ class PairList {
     void build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
                const ClusterOrder& order, const ReachOptions& options);
 
+    // Chooses the entries that the loops see, for the places of now; both have just been settled. Until then, after
+    // build(), they see all.
+    void prune(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours);
+
     // The same pairs with centres and neighbours exchanged.
     void build_transposed(const PairList& list, std::size_t centre_clusters);
 
-    // Are all pairs within the support listed, after the motion of both since build()?
-    bool covers(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const;
+    Coverage coverage(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const;
 
     // Asks again which pairs may interact.
     void refresh(const PairVisibility& visibility, std::size_t centres, std::size_t neighbours);
 
     const std::vector<PairBlock<S>>& blocks() const { return blocks_; }
     bool has_entries(std::size_t centre_cluster) const;
-    std::size_t entries() const;
+    std::size_t entries() const;  // that the loops see
     std::size_t bytes() const;
 
   private:
@@ -77,7 +83,8 @@ class PairList {
         std::vector<Index> stamp;                  // of each block of neighbours: the last block that looked at it
         std::vector<std::array<S, 3>> offsets;
         std::vector<PairGroup<S>> groups;
-        std::vector<Index> entries, nearby;
+        std::vector<Index> entries, nearby, far;
+        std::vector<std::uint16_t> far_seen;
     };
     struct Reverse {  // an entry seen from the other side
         Index cluster{};
@@ -92,7 +99,7 @@ class PairList {
     void list_nearby(PairBlock<S>& block, const VectorField& x, int dimensions, std::size_t begin, std::size_t end,
                      const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) const;
 
-    double skin_{}, far_skin_{};  // [m]
+    double support_{}, skin_{}, far_skin_{}, inner_skin_{};  // [m]
     std::vector<PairBlock<S>> blocks_;
     std::vector<Scratch> scratch_;  // one per thread
 };

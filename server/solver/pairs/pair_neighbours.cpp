@@ -18,6 +18,7 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     among_fluid_.build(fluid_, *input.fluid.x, fluid_, *input.fluid.order, reach);
     if (input.walls.count == 0) {
         walls_ = {};
+        prune();
         return;
     }
     if (input.has_new_walls) start(walls_, input.walls, input.walls_move);
@@ -25,23 +26,39 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     fluid_to_wall_.build(fluid_, *input.fluid.x, walls_, *input.walls.order, reach);
     wall_to_fluid_.build_transposed(fluid_to_wall_, walls_.clusters());
     if (input.wall_to_fluid != nullptr) wall_to_fluid_.refresh(*input.wall_to_fluid, walls_.size(), fluid_.size());
+    prune();
 }
 
+// For the places of now.
 template <class S>
-bool PairNeighboursOf<S>::covers() const {
-    return among_fluid_.covers(fluid_, fluid_) && (!has_walls() || fluid_to_wall_.covers(fluid_, walls_));
+void PairNeighboursOf<S>::prune() {
+    fluid_.settle();
+    among_fluid_.prune(fluid_, fluid_);
+    if (!has_walls()) return;
+    walls_.settle();
+    fluid_to_wall_.prune(fluid_, walls_);
+    wall_to_fluid_.prune(walls_, fluid_);
+}
+
+// Prunes where that makes the lists whole; false where only find() does.
+template <class S>
+bool PairNeighboursOf<S>::keep_whole() {
+    Coverage coverage = among_fluid_.coverage(fluid_, fluid_);
+    if (has_walls()) coverage = std::min(coverage, fluid_to_wall_.coverage(fluid_, walls_));
+    if (coverage == Coverage::listed) prune();
+    return coverage != Coverage::lost;
 }
 
 template <class S>
 bool PairNeighboursOf<S>::move_fluid(const VectorField& x, const FieldView& V) {
     fluid_.update(x, V);
-    return covers();
+    return keep_whole();
 }
 
 template <class S>
 bool PairNeighboursOf<S>::move_walls(const VectorField& x, const FieldView& V) {
     walls_.update(x, V);
-    return covers();
+    return keep_whole();
 }
 
 template <class S>

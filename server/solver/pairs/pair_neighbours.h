@@ -81,7 +81,8 @@ class PairNeighboursOf final : public PairNeighbours {
     const PairList<S>& wall_to_fluid() const { return wall_to_fluid_; }
 
   private:
-    bool covers() const;
+    bool keep_whole();
+    void prune();
 
     NeighbourInput input_;
     ClusterPoints<S> fluid_, walls_;

@@ -50,6 +50,7 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<P
     const Index* const entries = block.entries.data();
     for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
         const PairGroup<S>& group = block.groups[g];
+        if (group.begin == group.end) continue;
         std::array<T, D> x;
         for (int k = 0; k < D; ++k) x[k] = x_i[k] + T(static_cast<double>(group.offset[k]));
         const auto meet = [&](Index e) {

@@ -1,5 +1,7 @@
 #include "server/solver/pairs/reach_filter.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "server/solver/pairs/reach_filter.cpp"
 #include "hwy/foreach_target.h"
@@ -9,40 +11,97 @@
 HWY_BEFORE_NAMESPACE();
 namespace headrace::solver::HWY_NAMESPACE {
 
+// The points of a centre's cluster, as many vectors as it takes.
+template <class S, int D>
+class CentreLanes {
+    using T = PairLanes<S>;
+
+  public:
+    // Points that are not there are put where the first is.
+    CentreLanes(const S* record, std::size_t points) {
+        for (int k = 0; k < D; ++k) {
+            std::array<S, 4> four;
+            for (std::size_t l = 0; l < 4; ++l) four[l] = record[4 * k + (l < points ? l : 0)];
+            for (std::size_t part = 0; part < kParts; ++part) x_[part][k] = spread_four<S>(&four[part * kAtOnce]);
+        }
+    }
+
+    HWY_INLINE CentreLanes displaced(const std::array<S, 3>& offset) const {
+        CentreLanes there = *this;
+        for (std::size_t part = 0; part < kParts; ++part)
+            for (int k = 0; k < D; ++k) there.x_[part][k] += T(static_cast<double>(offset[k]));
+        return there;
+    }
+
+    // Is any of them near one of the four points?
+    HWY_INLINE bool is_within(const T& reach2, const S* record) const {
+        bool is_near = false;
+        for (std::size_t part = 0; part < kParts; ++part) {
+            T r2(0.0);
+            for (int k = 0; k < D; ++k) {
+                const T x_ij = x_[part][k] - load_four<S>(record + 4 * k);
+                r2 += x_ij * x_ij;
+            }
+            is_near |= is_any_below<S>(r2, reach2);
+        }
+        return is_near;
+    }
+
+  private:
+    static constexpr std::size_t kAtOnce = T::kCount / 4, kParts = 4 / kAtOnce;
+    std::array<std::array<T, D>, kParts> x_;
+};
+
 template <class S, int D>
 void filter(const ReachQuery<S>& query, Index* found, Index* end_of_way) {
-    using T = PairLanes<S>;
-    constexpr std::size_t kAtOnce = T::kCount / 4, kParts = 4 / kAtOnce;
-    // Points that are not there are put where the first is.
-    std::array<std::array<T, D>, kParts> x_i;
-    for (int k = 0; k < D; ++k) {
-        std::array<S, 4> four;
-        for (std::size_t l = 0; l < 4; ++l) four[l] = query.centre[4 * k + (l < query.centre_points ? l : 0)];
-        for (std::size_t part = 0; part < kParts; ++part) x_i[part][k] = spread_four<S>(&four[part * kAtOnce]);
-    }
-    const T reach2(query.reach * query.reach);
+    const CentreLanes<S, D> centre(query.centre, query.centre_points);
+    const PairLanes<S> reach2(query.reach * query.reach);
     std::size_t written = 0, c = 0;
     for (std::size_t w = 0; w < query.way_count; ++w) {
         const CandidateWay<S>& way = query.ways[w];
-        std::array<std::array<T, D>, kParts> x = x_i;
-        for (std::size_t part = 0; part < kParts; ++part)
-            for (int k = 0; k < D; ++k) x[part][k] += T(static_cast<double>(way.offset[k]));
+        const CentreLanes<S, D> x = centre.displaced(way.offset);
         for (; c < query.count && query.kept[c] < way.end; ++c) {
             const Index cluster = query.clusters[query.kept[c]];
-            const S* record = query.records + cluster * std::size_t{4 * (D + 1)};
-            bool is_near = false;
-            for (std::size_t part = 0; part < kParts; ++part) {
-                T r2(0.0);
-                for (int k = 0; k < D; ++k) {
-                    const T x_ij = x[part][k] - load_four<S>(record + 4 * k);
-                    r2 += x_ij * x_ij;
-                }
-                is_near |= is_any_below<S>(r2, reach2);
-            }
             found[written] = cluster;
-            written += is_near;
+            written += x.is_within(reach2, query.records + cluster * std::size_t{4 * (D + 1)});
         }
         end_of_way[w] = static_cast<Index>(written);
+    }
+}
+
+template <class S, int D, bool HasSeen>
+void prune(const PruneQuery<S>& query) {
+    const CentreLanes<S, D> centre(query.centre, query.centre_points);
+    const PairLanes<S> reach2(query.reach * query.reach);
+    for (std::size_t g = 0; g < query.group_count; ++g) {
+        PairGroup<S>& group = query.groups[g];
+        const CentreLanes<S, D> x = centre.displaced(group.offset);
+        Index near = group.begin, far = 0;
+        for (Index e = group.begin; e < group.listed_end; ++e) {
+            const Index cluster = query.entries[e];
+            const bool is_near = x.is_within(reach2, query.records + cluster * std::size_t{4 * (D + 1)});
+            query.far[far] = cluster;
+            query.entries[near] = cluster;
+            if constexpr (HasSeen) {
+                const std::uint16_t seen = query.seen[e];
+                query.far_seen[far] = seen;
+                query.seen[near] = seen;
+            }
+            near += is_near;
+            far += !is_near;
+        }
+        group.end = near;
+        std::copy(query.far, query.far + far, query.entries + near);
+        if constexpr (HasSeen) std::copy(query.far_seen, query.far_seen + far, query.seen + near);
+    }
+}
+
+template <class S>
+void prune_any(const PruneQuery<S>& query) {
+    if (query.dimensions == 2) {
+        query.seen == nullptr ? prune<S, 2, false>(query) : prune<S, 2, true>(query);
+    } else {
+        query.seen == nullptr ? prune<S, 3, false>(query) : prune<S, 3, true>(query);
     }
 }
 
@@ -90,6 +149,13 @@ void filter_double(const ReachQuery<double>& query, Index* found, Index* end_of_
     query.dimensions == 2 ? filter<double, 2>(query, found, end_of_way) : filter<double, 3>(query, found, end_of_way);
 }
 
+void prune_float(const PruneQuery<float>& query) {
+    prune_any(query);
+}
+void prune_double(const PruneQuery<double>& query) {
+    prune_any(query);
+}
+
 }  // namespace headrace::solver::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -99,6 +165,8 @@ namespace headrace::solver {
 HWY_EXPORT(filter_boxes_of);
 HWY_EXPORT(filter_float);
 HWY_EXPORT(filter_double);
+HWY_EXPORT(prune_float);
+HWY_EXPORT(prune_double);
 
 std::size_t filter_boxes(const BoxQuery& query, Index* kept) {
     return HWY_DYNAMIC_DISPATCH(filter_boxes_of)(query, kept);
@@ -109,6 +177,13 @@ void filter_reach(const ReachQuery<float>& query, Index* found, Index* end_of_wa
 }
 void filter_reach(const ReachQuery<double>& query, Index* found, Index* end_of_way) {
     HWY_DYNAMIC_DISPATCH(filter_double)(query, found, end_of_way);
+}
+
+void prune_to_reach(const PruneQuery<float>& query) {
+    HWY_DYNAMIC_DISPATCH(prune_float)(query);
+}
+void prune_to_reach(const PruneQuery<double>& query) {
+    HWY_DYNAMIC_DISPATCH(prune_double)(query);
 }
 
 }  // namespace headrace::solver

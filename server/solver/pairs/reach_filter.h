@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "server/solver/pairs/cluster_points.h"
+#include "server/solver/pairs/pair_group.h"
 #include "server/solver/particles.h"
 
 namespace headrace::solver {
@@ -40,6 +41,27 @@ struct BoxQuery {
     ClusterBox box;
     double reach{};  // [m]
 };
+
+// The list of one centre cluster.
+template <class S>
+struct PruneQuery {
+    int dimensions{};
+    const S* centre{};            // record of the centre's cluster
+    std::size_t centre_points{};  // points in it: the others are ignored
+    const S* records{};           // of the neighbours' clusters
+    PairGroup<S>* groups{};
+    std::size_t group_count{};
+    Index* entries{};
+    std::uint16_t* seen{};  // of each entry; null: none
+    double reach{};         // [m]
+    Index* far{};           // scratch for as many entries as the longest group has
+    std::uint16_t* far_seen{};
+};
+
+// Puts those entries of each group first that have a point within reach of one of the centre's, and sets its end behind
+// them. Neither they nor the others change their order.
+void prune_to_reach(const PruneQuery<float>& query);
+void prune_to_reach(const PruneQuery<double>& query);
 
 // Writes the numbers of the boxes within reach of the query's box, ascending; returns how many. Rounding may add a
 // box and loses none. kept: with space for count + kPadding.

@@ -141,10 +141,11 @@ std::vector<Stage> Wcsph::plan(const Surroundings& surroundings) const {
     const char* const no_walls = "no objects";
     add("neighbours", true,
         strategy() +
-            text_of("; lists reach %.2g spacings beyond the support and serve while they cover all pairs: "
-                    "sorted %llu times so far, %.0f listed a particle; %llu coincident pairs moved apart so far",
-                    skin(), static_cast<unsigned long long>(sorts_), neighbours_->neighbours_per_particle(),
-                    static_cast<unsigned long long>(separated_)),
+            text_of(
+                "; lists reach %.2g spacings beyond the support, pruned %.2g, and serve while they cover "
+                "all pairs: sorted %llu times so far, %.0f listed a particle; %llu coincident pairs moved apart so far",
+                skin(), inner_skin(), static_cast<unsigned long long>(sorts_), neighbours_->neighbours_per_particle(),
+                static_cast<unsigned long long>(separated_)),
         "", seconds_[kNeighbours]);
     add("geometry", true, "moment matrices, free surface", "", seconds_[kGeometry]);
     add("shifting", has_shifting(), "sums timed with geometry, one loop",

@@ -76,7 +76,7 @@ void Wcsph::list_neighbours(const Particles& particles, const Surroundings& surr
     in.fluid = {&order_, &particles.x, volumes(particles), particles.size()};
     const bool has_new_walls = walls_.put_in_order(surroundings.domain) || is_first;
     in.walls = walls_.points();
-    in.reach = {support_, skin() * spacing_, period_, nullptr};
+    in.reach = {support_, skin() * spacing_, inner_skin() * spacing_, period_, nullptr};
     if (const Visibility* panels = walls_.thin_walls()) {
         using enum SightLines::Between;
         const VectorField &x = particles.x, &w = walls_.particles().x;

@@ -10,14 +10,14 @@ using namespace headrace::solver::testing;
 
 namespace {
 
-constexpr double kSupport = 3.0, kSkin = 0.4;
+constexpr double kSupport = 3.0, kSkin = 0.4, kInnerSkin = 0.15;
 
 NeighbourInput input_of(const Points& fluid, const Points* walls = nullptr) {
     NeighbourInput in;
     in.dimensions = fluid.dimensions;
     in.fluid = fluid.ordered();
     if (walls != nullptr) in.walls = walls->ordered();
-    in.reach = {kSupport, kSkin, fluid.period(), nullptr};
+    in.reach = {kSupport, kSkin, kInnerSkin, fluid.period(), nullptr};
     return in;
 }
 
@@ -95,9 +95,24 @@ TEST_CASE("PairList.HasEveryPairWithinTheSupportAndItsSkinOnce") {
     const std::string kind = GENERATE("body", "periods", "spray", "spray about a corner of periods");
     const Points points = make_body(kind, dimensions);
     PairNeighboursOf<double> neighbours;
-    neighbours.find(input_of(points));
+    NeighbourInput in = input_of(points);
+    in.reach.inner_skin = kSkin;
+    neighbours.find(in);
     check_complete(neighbours, points);
     check_complete(neighbours, points, kSupport + kSkin);
+}
+
+TEST_CASE("PairList.PruningKeepsEveryPairWithinTheSupportAndTheInnerSkin") {
+    const int dimensions = GENERATE(2, 3);
+    const std::string kind = GENERATE("body", "periods", "spray");
+    const Points points = make_body(kind, dimensions);
+    PairNeighboursOf<double> all, pruned;
+    NeighbourInput in = input_of(points);
+    pruned.find(in);
+    in.reach.inner_skin = kSkin;
+    all.find(in);
+    check_complete(pruned, points, kSupport + kInnerSkin);
+    CHECK(pruned.neighbours_per_particle() < all.neighbours_per_particle());
 }
 
 TEST_CASE("PairList.HasThePairsOfClustersAsWideAsTheScene") {
@@ -116,14 +131,16 @@ TEST_CASE("PairList.HasThePairsOfClustersAsWideAsTheScene") {
         }
         points.sort();
         PairNeighboursOf<double> neighbours;
-        neighbours.find(input_of(points));
+        NeighbourInput in = input_of(points);
+        in.reach.inner_skin = kSkin;
+        neighbours.find(in);
         INFO("trial " << trial);
         check_complete(neighbours, points, kReach);
     }
 }
 
 TEST_CASE("PairList.MissesNoPairAsLongAsItSaysSo") {
-    // A carried, turning and shaken body: lists are kept until covers() gives them up.
+    // A carried, turning and shaken body: lists are kept until coverage() gives them up.
     const int dimensions = GENERATE(2, 3);
     const std::string kind = GENERATE("body", "periods");
     Points points = make_body(kind, dimensions);
@@ -144,6 +161,35 @@ TEST_CASE("PairList.MissesNoPairAsLongAsItSaysSo") {
     }
     CHECK(kept >= 2);   // a body carried 0.3 a step alone would have worn out a skin of 0.4 at once
     CHECK(kept < 100);  // and shaking wears it out in the end
+}
+
+TEST_CASE("PairList.BringsBackPrunedPairsThatComeNear") {
+    // Two bodies that approach each other by less than the skin, in steps longer than the inner one: pairs between them
+    // are listed from the start, pruned away, and needed in the end.
+    const int dimensions = GENERATE(2, 3);
+    Points points;
+    points.dimensions = dimensions;
+    for (int k = 0; k < 150; ++k) {
+        const double x = k % 5, y = k / 5 % 5, z = dimensions == 3 ? k / 25 : 0.05 * (k / 25);
+        points.add({x, y, z});
+        points.add({x + 7.2, y, z});  // 3.2 between them
+    }
+    points.sort();
+    PairNeighboursOf<float> neighbours;
+    neighbours.find(input_of(points));
+    const auto across = [&] {
+        std::size_t count = 0;
+        for (const auto& [pair, times] : listed_pairs(neighbours.among_fluid(), neighbours.fluid(), neighbours.fluid()))
+            count += (points.x[0][pair.first] < 5.5) != (points.x[0][pair.second] < 5.5);
+        return count;
+    };
+    CHECK(across() == 0);
+    for (int step = 0; step < 2; ++step) {
+        for (std::size_t i = 0; i < points.size(); ++i) points.x[0][i] += points.x[0][i] < 5.5 ? 0.09 : -0.09;
+        REQUIRE(neighbours.move_fluid(points.x, points.V.data()));
+        check_complete(neighbours, points);
+    }
+    CHECK(across() > 0);
 }
 
 TEST_CASE("PairList.TellsWhenOneFastPointCouldCloseIn") {
