@@ -33,7 +33,10 @@ headrace_script_test("house: only missing packages are installed" script support
 
 # The protocol's documents, judged by others' tools.
 headrace_script_test("schemas: examples and presets are valid" script support/check_schemas.py NEEDS jsonschema)
-headrace_script_test("protocol: the reference is up to date" script support/protocol_reference.py ${root})
+headrace_script_test("protocol: the reference is up to date" script support/protocol_reference.py
+                     $<TARGET_FILE:headraced> $<TARGET_FILE:headrace> ${root})
+headrace_script_test("protocol: what describe says holds" script support/check_description.py $<TARGET_FILE:headraced> ${root}
+                     NEEDS zmq,jsonschema)
 
 # Recordings and frames, read by others. Frame 7 of the sample recording also comes as a file of its own.
 add_executable(write_sample_recording support/write_sample_recording.cpp)

@@ -61,7 +61,8 @@ struct Bench {
         .record_command = [this](const std::string& json, double) { recorded.push_back(Json::parse(json)); },
         .publisher_counts =
             [] {
-                return publish::PublisherCounts{2, 1};
+                return publish::PublisherCounts{
+                    1, {proto::StreamState{.stream = "frame/1"}, proto::StreamState{.stream = "data/1"}}};
             },
         .shut_down = [this] { ++shutdowns; },
         .pending = {},
