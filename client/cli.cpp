@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kFooter =
     R"(A server is chosen by --server, else by HEADRACE_SERVER, else it is tcp://127.0.0.1:5755. `run`,
 `converge` and `plan SCENE` need none: they start a private headraced (HEADRACE_SERVER_BINARY, else the one beside this
-program).
+program); so does `script` where no server is chosen.
 
 Exit status:
   0  done                                  5  not possible in this state, busy, cancelled
@@ -75,6 +75,7 @@ int run_command_line(int argc, char** argv) {
     add_object_commands(app, line);
     add_probe_commands(app, line);
     add_record_command(app, line);
+    add_script_command(app, line);
     add_file_commands(app, line);
     add_raw_commands(app, line);
     try {
