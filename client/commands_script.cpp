@@ -125,7 +125,7 @@ void add_script_command(CLI::App& app, CommandLine& line) {
     auto words = std::make_shared<ScriptWords>();
     CLI::App* script = add_command(app, line, "script", "do the commands of a file, one a line, up to the first error",
                                    [words](const Globals& globals) { return run_script(globals, *words); });
-    script->add_option("FILE", words->file, R"(JSON Lines; "-": standard input)")
+    script->add_option("FILE", words->file, R"(JSON Lines; "-": standard input; headrace help scripts explains them)")
         ->required();
     script->add_option("--set", words->assignments, "value of ${name}, name=value; can be repeated")
         ->allow_extra_args(false);

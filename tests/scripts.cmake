@@ -77,6 +77,9 @@ headrace_script_test("vtp: VTK finds the numbers of the CSV files" script suppor
 headrace_script_test("install: the programs work from where they are installed" script support/check_installed.sh
                      ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR} ${results}/prefix)
 
+headrace_script_test("install: manual pages are right and whole" script support/check_man.sh $<TARGET_FILE:headrace>
+                     $<TARGET_FILE:headraced>)
+
 # The main job, with the programs of this build.
 headrace_script_test("demo: dam break from load to pictures" demo support/check_demo.sh ${PROJECT_BINARY_DIR} ${root}
                      ${results}/demo)
