@@ -82,6 +82,7 @@ int run_command_line(int argc, char** argv) {
     add_script_command(app, line);
     add_file_commands(app, line);
     add_raw_commands(app, line);
+    add_watch_command(app, line);
     add_doctor_command(app, line);
     add_help_commands(app, line);
 
