@@ -45,7 +45,7 @@ proto::Status print_help(const CLI::App& app, const std::string& word) {
     for (const CLI::App* command : app.get_subcommands(is_visible)) {
         known.push_back(command->get_name());
         if (command->get_name() != word) continue;
-        std::cout << command->help() << std::flush;
+        std::cout << command->help(app.get_name()) << std::flush;
         return proto::Done{};
     }
     return usage_error("there is no topic \"" + word + "\"", "TOPIC", proto::suggest(word, known));

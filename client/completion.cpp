@@ -214,6 +214,12 @@ Completions complete(const CLI::App& app, const std::vector<std::string>& words,
     Completions result;
     if (before.pending != nullptr) {
         add_words(result, *before.pending, app, before, server_names);
+    } else if (const std::size_t equals = last.find('='); last.starts_with("--") && equals != std::string::npos) {
+        const std::string name = last.substr(0, equals);
+        if (const CLI::Option* option = find_option(app, *before.command, name); option && takes_word(*option))
+            add_words(result, *option, app, before, server_names);
+        result.wants_files = false;  // a shell would seek files that begin with the option's name
+        for (Candidate& candidate : result.candidates) candidate.word.insert(0, name + "=");
     } else if (last.starts_with("-")) {
         for (const CLI::App* each : {before.command, &app}) {
             for (const CLI::Option* option : each->get_options())

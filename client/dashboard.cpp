@@ -18,9 +18,9 @@ constexpr const char* kYellow = "33";
 constexpr const char* kRed = "31";
 
 // Events that tell of something wrong.
-constexpr std::array<std::string_view, 9> kWarningTypes{"server.problem",     "server.stopping", "scene.load_failed",
-                                                        "sim.not_at_rest",    "sim.faulted",     "probe.failed",
-                                                        "scene_event.failed", "stream.stalled",  "stream.failed"};
+constexpr std::array<std::string_view, 10> kWarningTypes{
+    "server.problem", "server.stopping",    "scene.load_failed", "sim.not_at_rest", "sim.faulted",
+    "probe.failed",   "scene_event.failed", "stream.stalled",    "stream.failed",   "record.failed"};
 
 std::string padded(std::string text, std::size_t width) {
     text.resize(std::max(text.size(), width), ' ');
@@ -55,9 +55,7 @@ void Dashboard::add(const proto::SimStatusReply& status, const Extras& extras) {
 }
 
 void Dashboard::add(const proto::Event& event) {
-    const bool is_warning = std::find(kWarningTypes.begin(), kWarningTypes.end(), event.type) != kWarningTypes.end() ||
-                            event.type == "record.failed";
-    if (!is_warning) return;
+    if (std::find(kWarningTypes.begin(), kWarningTypes.end(), event.type) == kWarningTypes.end()) return;
     warnings_.push_back(event_line(event));
     if (warnings_.size() > kWarnings) warnings_.pop_front();
 }
@@ -85,10 +83,11 @@ std::vector<std::string> Dashboard::run_lines(int columns) const {
     if (!s.diagnostics) return lines;
     const proto::Diagnostics& sums = *s.diagnostics;
     lines.push_back(row("max speed", number(sums.max_speed) + " m/s", nullptr, columns));
-    lines.push_back(row("kinetic energy", number(sums.kinetic_energy) + " J", &kinetic_, columns));
-    lines.push_back(row("energy", number(sums.kinetic_energy + sums.potential_energy) + " J", &energy_, columns));
+    lines.push_back(row("kinetic energy", number(sums.kinetic_energy) + " J (2D: J/m)", &kinetic_, columns));
+    lines.push_back(
+        row("energy", number(sums.kinetic_energy + sums.potential_energy) + " J (2D: J/m)", &energy_, columns));
     if (extras_.energy_balance)
-        lines.push_back(row("energy error", number(*extras_.energy_balance) + " J", &balance_, columns));
+        lines.push_back(row("energy error", number(*extras_.energy_balance) + " J (2D: J/m)", &balance_, columns));
     if (extras_.rest_density) {
         const double rest = *extras_.rest_density;
         lines.push_back(row("density error", "mean " + percent(sums.mean_density / rest - 1.0), &mean_error_, columns));

@@ -29,7 +29,7 @@ struct ScriptCommand {
 struct ScriptRun {
     proto::RunUntil until;
 };
-// Something happens that has not happened before this line.
+// Something happens, or has happened since the event that the wait before has found.
 struct ScriptEvent {
     std::string type;
     std::optional<double> timeout;  // [s] wall time

@@ -87,8 +87,9 @@ proto::Result<bool> ScriptWaits::take_event(const std::string& type, double pati
     proto::EventsSince query{.seq = seen_, .timeout = patience, .types = {type}, .limit = 1};
     auto reply = call<proto::EventsSinceReply>(connection_, "events.since", query);
     if (!reply) return reply.error();
-    seen_ = reply->last_seq;
-    return !reply->events.empty();
+    if (reply->events.empty()) return false;
+    seen_ = reply->events.front().seq;  // not last_seq: what came behind it, of other types, is for the waits to come
+    return true;
 }
 
 proto::Status ScriptWaits::wait(const ScriptEvent& event) {

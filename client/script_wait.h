@@ -20,7 +20,8 @@ class ScriptWaits {
     // With nothing running: a run to that end, as `headrace resume --until`. While a run goes on: until it has come
     // there; it goes on. Errors: the server's; timed_out, cancelled, faulted; wrong_state when the run ends before.
     proto::Status wait(const proto::RunUntil& until, const std::string& label);
-    // Until an event of the type comes that no earlier wait has seen. Errors: the server's, timed_out.
+    // Until there is an event of the type behind the one that the wait before has found. Errors: the server's,
+    // timed_out.
     proto::Status wait(const ScriptEvent& event);
 
   private:
@@ -28,11 +29,11 @@ class ScriptWaits {
     // Whether the moment has come; nothing changes.
     proto::Result<bool> is_there(const proto::SimStatusReply& start, const proto::RunUntil& until);
     proto::Result<bool> has_value(const proto::ProbeConditionDesc& condition);
-    // The events of the type since the last look; those before the first one found are seen then.
+    // The next event of the type, which counts as found then.
     proto::Result<bool> take_event(const std::string& type, double patience);
 
     Connection& connection_;
-    std::uint64_t seen_{0};
+    std::uint64_t seen_{0};  // number of the last event found
 };
 
 }  // namespace headrace::client

@@ -20,6 +20,7 @@ check_completion() {
     offers 'headrace help acc' 'accuracy'
     offers 'headrace completion fi' 'fish'
     offers 'headrace info wav' 'wave.mcap'
+    offers 'headrace resume --until=at-r' '--until=at-rest'
     # From the server: objects, parameters, probes, scenes.
     offers 'headrace remove pan' 'panel'
     offers 'headrace set visc' 'viscosity='

@@ -8,7 +8,7 @@ unset OMP_NUM_THREADS
 
 expect 0 '(ok|warning) .*private server +.*headraced [0-9.]+.*server +tcp://127.*, [0-9]+ threads?' "$headrace" doctor
 "$headrace" --json doctor >findings.json || fail "doctor --json ended with $?"
-python3 - <<'PYTHON' || fail "$(cat findings.json)"
+/usr/bin/python3 - <<'PYTHON' || fail "$(cat findings.json)"
 import json
 findings = json.load(open("findings.json"))
 subjects = [f["subject"] for f in findings]
@@ -37,7 +37,7 @@ expect 3 '.*failure +server +no answer from ipc://.*error connection_failed \(se
 expect 6 '.*failure +temporary folder +.*' env TMPDIR=/proc "$headrace" doctor
 
 # A port that another program has taken is told from one that nobody listens on.
-python3 - "$work/port" <<'PYTHON' &
+/usr/bin/python3 - "$work/port" <<'PYTHON' &
 import signal, socket, sys, os
 s = socket.socket()
 s.bind(("127.0.0.1", 0))

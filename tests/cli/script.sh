@@ -94,6 +94,13 @@ JSON
 expect_result 0 '.*3 wait: \{"step":10,.*4 wait: \{"step":20,.*5 wait: \{"step":30,.*6 wait: \{"step":40,.*12 sim\.cancel: .*13 wait: .*' \
     "$headrace" script waits.jsonl
 expect 0 '.*idle, step ([7-9][0-9]|[0-9,]{3,}), .*' "$headrace" status
+# Events are found in their order, also those that have come meanwhile.
+printf '%s\n' '{"method": "objects.add", "params": {"object": {"name": "ball", "shape": {"sphere": {"center": [0, 0, 0], "radius": 0.01}}}}}' \
+    '{"method": "objects.remove", "params": {"name": "ball"}}' '{"method": "sim.step"}' '{"wait": {"event": "object.added"}}' \
+    '{"wait": {"event": "object.removed", "timeout": 60}}' '{"wait": {"event": "job.ended", "timeout": 60}}' >events.jsonl
+expect_result 0 '.*6 wait: .*' "$headrace" script events.jsonl
+printf '%s\n' '{"method": "sim.step"}' '{"wait": {"event": "job.ended"}}' '{"wait": {"event": "job.started", "timeout": 0.1}}' >events.jsonl
+expect 8 '(.*)error timed_out \(events\.jsonl:3: .*' "$headrace" script events.jsonl
 wait_fails() { # STATUS PATTERN LINES...: bad.jsonl of the lines, after a load
     local status=$1 pattern=$2
     shift 2

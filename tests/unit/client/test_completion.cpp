@@ -73,6 +73,7 @@ TEST_CASE("Completion.NamesAreTheServersThatTheLineNames") {
 TEST_CASE("Completion.AnOptionsWordIsNotAPositional") {
     Program program;
     CHECK(program.after({"move", "--slip", "no"}) == Words{"no_slip"});
+    CHECK(program.after({"move", "--slip=no"}) == Words{"--slip=no_slip"});
     CHECK(program.after({"move", "--to", ""}).empty());
     CHECK(program.after({"move", "--to", "1,2", ""}) == Words{"my_object"});
     CHECK(program.after({"move", "ball", ""}).empty());
