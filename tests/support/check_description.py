@@ -7,6 +7,7 @@ usage: check_description.py HEADRACED REPOSITORY
 
 import json
 import pathlib
+import re
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -259,6 +260,17 @@ def check_error_example(client: Client, repository: pathlib.Path, document: dict
     expect(listed[reply["error"]["data"]["name"]] == reply["error"]["code"], "an error's code is not the one listed")
 
 
+def check_event_sources(repository: pathlib.Path, document: dict[str, Any]) -> None:
+    """Types that no example brings about: what the server's sources report is listed, and nothing else is."""
+    sources = "\n".join(file.read_text() for file in sorted((repository / "server").rglob("*.cpp")))
+    reported = set(re.findall(r'(?:\breport\(|\.type = )"([a-z_]+\.[a-z_]+)"', sources))
+    listed = {event["type"] for event in document["x-events"]["types"]}
+    expect(len(reported) > 15, f"few events in the sources: {reported}")
+    expect(reported <= listed, f"events that are not listed: {reported - listed}")
+    unknown = {event for event in listed if f'"{event}"' not in sources}
+    expect(not unknown, f"events that the server does not know: {unknown}")
+
+
 def main() -> int:
     headraced, repository = sys.argv[1], pathlib.Path(sys.argv[2])
     with private_server(headraced) as server:
@@ -266,6 +278,7 @@ def main() -> int:
         document = client.call("describe")
         check_document(document)
         check_error_example(client, repository, document)
+        check_event_sources(repository, document)
         client.close()
     types = set().union(*(try_example(headraced, method, document) for method in document["methods"]))
     for failure in failures:
