@@ -4,9 +4,11 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "client/arguments.h"
+#include "client/completion.h"
 #include "client/endpoints.h"
 #include "client/interrupt.h"
 #include "client/text.h"
@@ -20,7 +22,9 @@ namespace {
 constexpr const char* kFooter =
     R"(A server is chosen by --server, else by HEADRACE_SERVER, else it is tcp://127.0.0.1:5755. `run`,
 `converge` and `plan SCENE` need none: they start a private headraced (HEADRACE_SERVER_BINARY, else the one beside this
-program).
+program); so does `script` where no server is chosen.
+
+headrace help lists topics with examples; headrace completion SHELL makes words complete themselves.
 
 Exit status:
   0  done                                  5  not possible in this state, busy, cancelled
@@ -75,8 +79,18 @@ int run_command_line(int argc, char** argv) {
     add_object_commands(app, line);
     add_probe_commands(app, line);
     add_record_command(app, line);
+    add_script_command(app, line);
     add_file_commands(app, line);
     add_raw_commands(app, line);
+    add_watch_command(app, line);
+    add_doctor_command(app, line);
+    add_help_commands(app, line);
+
+    // The shells' question comes before the parser: what it asks about is not finished.
+    if (argc > 1 && std::string_view(argv[1]) == "__complete") {
+        print_completions(app, {argv + 2, argv + argc});
+        return 0;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& wanted) {

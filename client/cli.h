@@ -37,7 +37,11 @@ void add_probe_commands(CLI::App& app, CommandLine& line);
 void add_record_command(CLI::App& app, CommandLine& line);
 void add_local_run_command(CLI::App& app, CommandLine& line);
 void add_converge_command(CLI::App& app, CommandLine& line);
+void add_script_command(CLI::App& app, CommandLine& line);
 void add_file_commands(CLI::App& app, CommandLine& line);
 void add_raw_commands(CLI::App& app, CommandLine& line);
+void add_watch_command(CLI::App& app, CommandLine& line);
+void add_doctor_command(CLI::App& app, CommandLine& line);
+void add_help_commands(CLI::App& app, CommandLine& line);  // help, completion, man: of all commands before them
 
 }  // namespace headrace::client

@@ -15,7 +15,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kHelloPatience = 3s;  // also covers a server that is just starting: the socket keeps trying
 constexpr auto kQueryPatience = 5s;
 constexpr auto kSilence = 2s;        // of a request under way, after which the server is asked for a sign of life
 constexpr auto kProbePatience = 3s;  // for that sign
@@ -28,11 +27,12 @@ Connection::Connection(std::string endpoint, std::unique_ptr<RpcSocket> socket, 
 
 Connection::~Connection() = default;
 
-proto::Result<std::unique_ptr<Connection>> Connection::open(const std::string& endpoint, PeerCheck peer_check) {
+proto::Result<std::unique_ptr<Connection>> Connection::open(const std::string& endpoint, PeerCheck peer_check,
+                                                            std::chrono::milliseconds patience) {
     auto socket = RpcSocket::connect(endpoint);
     if (!socket) return socket.error();
     std::unique_ptr<Connection> connection(new Connection(endpoint, *std::move(socket), std::move(peer_check)));
-    if (auto greeted = connection->say_hello(); !greeted) return greeted.error();
+    if (auto greeted = connection->say_hello(patience); !greeted) return greeted.error();
     return connection;
 }
 
@@ -48,13 +48,13 @@ std::optional<proto::Error> Connection::check_peer() const {
     return std::nullopt;
 }
 
-proto::Status Connection::say_hello() {
+proto::Status Connection::say_hello(std::chrono::milliseconds patience) {
     const std::int64_t id = next_id();
     socket_->send(proto::rpc_request_text(id, "hello", proto::Json::object()));
-    const auto deadline = Clock::now() + kHelloPatience;
+    const auto deadline = Clock::now() + patience;
     while (Clock::now() < deadline && !is_interrupted()) {
         if (auto gone = check_peer()) return *gone;
-        const auto received = socket_->receive(kSlice);
+        const auto received = socket_->receive(std::min<std::chrono::milliseconds>(kSlice, patience));
         if (!received || received->json.empty()) continue;
         auto reply = proto::parse_rpc_reply(received->json);
         if (!reply || reply->id != id)

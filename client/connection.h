@@ -1,6 +1,7 @@
 // Requests and replies over the control socket of one server. Owner: one thread.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,8 +26,12 @@ class Connection {
     // Says what became of a server that we started ourselves; nothing while it lives.
     using PeerCheck = std::function<std::optional<std::string>()>;
 
+    // Long enough for a server that is just starting: the socket keeps trying.
+    static constexpr std::chrono::milliseconds kHelloPatience{3'000};
+
     // Connects and says hello. Errors: connection_failed, protocol_mismatch.
-    static proto::Result<std::unique_ptr<Connection>> open(const std::string& endpoint, PeerCheck peer_check = {});
+    static proto::Result<std::unique_ptr<Connection>> open(const std::string& endpoint, PeerCheck peer_check = {},
+                                                           std::chrono::milliseconds patience = kHelloPatience);
     ~Connection();
 
     // Errors: what the server answers; connection_failed when it is gone; cancelled on Ctrl-C.
@@ -44,7 +49,7 @@ class Connection {
 
   private:
     Connection(std::string endpoint, std::unique_ptr<RpcSocket> socket, PeerCheck peer_check);
-    proto::Status say_hello();
+    proto::Status say_hello(std::chrono::milliseconds patience);
     proto::Error lost(std::string_view what) const;
     std::optional<proto::Error> check_peer() const;
 

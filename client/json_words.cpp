@@ -20,15 +20,22 @@ proto::Error told_of(const std::string& what, proto::Error error) {
 
 }  // namespace
 
-proto::Result<proto::Json> read_json_file(const std::string& file, const std::string& hint) {
+proto::Result<std::string> read_text_file(const std::string& file, const std::string& hint) {
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored))
         return proto::Error{proto::ErrorCode::file_error, "is a folder", file, hint};
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;
-    if (!in || !(text << in.rdbuf()))
+    // An empty file leaves no character to put out, which is no failure.
+    if (!in || (in.peek() != std::ifstream::traits_type::eof() && !(text << in.rdbuf())))
         return proto::Error{proto::ErrorCode::file_error, std::strerror(errno), file, hint};
-    auto document = proto::parse_json(text.str());
+    return text.str();
+}
+
+proto::Result<proto::Json> read_json_file(const std::string& file, const std::string& hint) {
+    auto text = read_text_file(file, hint);
+    if (!text) return text.error();
+    auto document = proto::parse_json(*text);
     if (!document) return told_of(file, document.error());
     return document;
 }

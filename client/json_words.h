@@ -9,6 +9,9 @@
 
 namespace headrace::client {
 
+// A file as text. Error: file_error with the hint.
+proto::Result<std::string> read_text_file(const std::string& file, const std::string& hint);
+
 // The document as it stands: the server checks it and names paths inside it. Errors: file_error with the hint;
 // parse_error, json_too_deep, duplicate_key with the file's name in the path.
 proto::Result<proto::Json> read_json_file(const std::string& file, const std::string& hint);

@@ -84,6 +84,7 @@ void describe(Visitor& v, StateHash& m);
 void describe(Visitor& v, PlanStage& m);
 void describe(Visitor& v, FaultReport& m);
 void describe(Visitor& v, Diagnostics& m);
+void describe(Visitor& v, StreamState& m);
 void describe(Visitor& v, SimStatusReply& m);
 void describe(Visitor& v, InspectedNeighbour& m);
 void describe(Visitor& v, InspectedTerm& m);

@@ -148,6 +148,18 @@ struct Diagnostics {
     double mean_density{};      // [kg/m^3]
     double max_density{};       // [kg/m^3]
 };
+enum class StreamMode { live, lossless };
+
+// A stream as the server sees it.
+struct StreamState {
+    std::string stream;
+    StreamMode mode{StreamMode::live};
+    bool subscribed{};       // live: somebody listens; lossless: not closing
+    std::uint64_t frames{};  // captured so far
+    // lossless:
+    std::optional<std::int64_t> behind;  // frames captured and not acknowledged
+    std::optional<std::int64_t> window;  // at `behind` == `window` the run waits, or the stream fails
+};
 struct SimStatusReply {
     SimState state{SimState::empty};
     std::optional<std::string> scene;
@@ -166,10 +178,11 @@ struct SimStatusReply {
     std::optional<StateHash> state_hash;
     std::optional<FaultReport> fault;
     std::vector<PlanStage> plan;
-    std::int64_t streams{};     // open ones
-    std::int64_t recordings{};  // running ones
-    bool stalled{};             // a lossless reader holds the run up just now
-    double load_progress{};     // 0..1 while loading
+    std::int64_t streams{};            // open ones
+    std::vector<StreamState> readers;  // each of them
+    std::int64_t recordings{};         // running ones
+    bool stalled{};                    // a lossless reader holds the run up just now
+    double load_progress{};            // 0..1 while loading
     double uptime_s{};
 };
 
@@ -305,7 +318,6 @@ struct ProbeSamples {
 // ---- frames and streams ---------------------------------------------------------------------------------------------
 
 enum class Precision { f4, f8 };
-enum class StreamMode { live, lossless };
 enum class OnStall { pause, fail };
 
 struct FrameGet {  // data socket; reply message: JSON part, then one frame part
@@ -393,10 +405,7 @@ struct RecordStopReply {
 
 using EventValue = std::variant<bool, std::int64_t, double, std::string>;
 
-// Types (the stable list is in proto/README.md): server.started scene.loaded scene.load_failed job.started job.ended
-// job.paused job.resumed sim.at_rest sim.not_at_rest sim.faulted params.changed object.added object.moved
-// object.removed probe.added probe.removed probe.failed scene_event.fired scene_event.failed stream.opened
-// stream.closed stream.failed stream.stalled record.started record.stopped record.failed server.problem server.stopping
+// Types: proto/event_types.h.
 struct Event {
     std::uint64_t seq{};  // from 1, gap-free within a session
     std::string type;

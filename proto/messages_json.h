@@ -41,6 +41,10 @@ Json method_params_schema(std::string_view method);
 Json method_result_schema(std::string_view method);
 Json error_schema();  // of what error_json gives
 
+// Whether these are params of the method; the error is the decoder's, with `params` as the root of its path, or
+// method_not_found.
+Status check_params(std::string_view method, const Json& params);
+
 // Text in, text out, for those who do not want the JSON library.
 Result<SceneDesc> parse_scene(std::string_view text);
 std::string scene_text(const SceneDesc& scene);  // indented

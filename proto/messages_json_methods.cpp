@@ -38,14 +38,21 @@ Json schema_of() {
         return json_schema<Message>();
 }
 
+template <class Params>
+Status check_params_of(const Json& params) {
+    const Result<Params> decoded = from_json<Params>(params, "params");
+    return decoded ? Status(Done{}) : Status(decoded.error());
+}
+
 struct Schemas {
     Json (*params)();
     Json (*result)();
+    Status (*check)(const Json& params);
 };
 
 template <class Params, class Result>
 constexpr Schemas schemas_of(const Method<Params, Result>&) {
-    return {&schema_of<Params>, &schema_of<Result>};
+    return {&schema_of<Params>, &schema_of<Result>, &check_params_of<Params>};
 }
 
 // Beside kMethods, row by row.
@@ -94,6 +101,13 @@ Json method_params_schema(std::string_view method) {
 Json method_result_schema(std::string_view method) {
     const Schemas* schemas = find_schemas(method);
     return schemas ? schemas->result() : Json();
+}
+
+Status check_params(std::string_view method, const Json& params) {
+    const Schemas* schemas = find_schemas(method);
+    if (schemas == nullptr)
+        return Error{ErrorCode::method_not_found, "there is no method \"" + std::string(method) + "\"", "method", ""};
+    return schemas->check(params);
 }
 
 }  // namespace headrace::proto

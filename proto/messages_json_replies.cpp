@@ -104,6 +104,16 @@ void describe(Visitor& v, Diagnostics& m) {
                {.meaning = "largest density", .unit = "kg/m^3", .may_be_non_finite = true});
 }
 
+void describe(Visitor& v, StreamState& m) {
+    v.required("stream", m.stream, {.meaning = "id of the stream"});
+    v.required("mode", m.mode, {.meaning = "live may skip frames, lossless never does"});
+    v.required("subscribed", m.subscribed, {.meaning = "live: somebody listens; lossless: it is not closing"});
+    v.required("frames", m.frames, {.meaning = "frames captured so far", .unit = "1"});
+    v.optional("behind", m.behind, {.meaning = "lossless: frames captured and not acknowledged", .unit = "1"});
+    v.optional("window", m.window,
+               {.meaning = "lossless: at so many behind the run waits, or the stream fails", .unit = "1"});
+}
+
 void describe(Visitor& v, SimStatusReply& m) {
     v.required("state", m.state, {.meaning = "state of the server"});
     v.optional("scene", m.scene, {.meaning = "name of the scene"});
@@ -125,6 +135,7 @@ void describe(Visitor& v, SimStatusReply& m) {
     v.optional("fault", m.fault, {.meaning = "why the run is faulted"});
     v.required("plan", m.plan, {.meaning = "stages of a step, and those left out"});
     v.required("streams", m.streams, {.meaning = "open streams", .unit = "1"});
+    v.optional("readers", m.readers, {.meaning = "each open stream; absent: none"});
     v.required("recordings", m.recordings, {.meaning = "running recordings", .unit = "1"});
     v.required("stalled", m.stalled, {.meaning = "a lossless reader holds the run up just now"});
     v.required("load_progress", m.load_progress, {.meaning = "0 to 1 while a scene is loading", .unit = "1"});

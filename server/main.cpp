@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "proto/man_page.h"
 #include "proto/version.h"
 #include "server/large_arrays.h"
 #include "server/service/endpoints.h"
@@ -52,6 +53,13 @@ void declare_options(CLI::App& app, Options& options) {
         ->capture_default_str();
     app.add_flag("--json", options.json, "print the ready line as JSON");
     app.add_flag("--quit-on-stdin-eof", options.quit_on_stdin_eof, "end when standard input ends");
+    app.add_flag_callback(
+        "--man",
+        [&app] {
+            std::fputs(headrace::proto::man_page(app, "headraced", "headraced").c_str(), stdout);
+            throw CLI::Success();
+        },
+        "print the manual page: headraced --man | man -l -");
     app.set_version_flag("--version", std::string("headraced ") + headrace::proto::kProgramVersion);
     app.footer(kFooter);
 }

@@ -33,7 +33,10 @@ headrace_script_test("house: only missing packages are installed" script support
 
 # The protocol's documents, judged by others' tools.
 headrace_script_test("schemas: examples and presets are valid" script support/check_schemas.py NEEDS jsonschema)
-headrace_script_test("protocol: the reference is up to date" script support/protocol_reference.py ${root})
+headrace_script_test("protocol: the reference is up to date" script support/protocol_reference.py
+                     $<TARGET_FILE:headraced> $<TARGET_FILE:headrace> ${root})
+headrace_script_test("protocol: what describe says holds" script support/check_description.py $<TARGET_FILE:headraced> ${root}
+                     NEEDS zmq,jsonschema)
 
 # Recordings and frames, read by others. Frame 7 of the sample recording also comes as a file of its own.
 add_executable(write_sample_recording support/write_sample_recording.cpp)
@@ -73,6 +76,9 @@ headrace_script_test("vtp: VTK finds the numbers of the CSV files" script suppor
                      --csv ${results}/commands/whole/idle_frames.csv FIXTURE commands)
 headrace_script_test("install: the programs work from where they are installed" script support/check_installed.sh
                      ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR} ${results}/prefix)
+
+headrace_script_test("install: manual pages are right and whole" script support/check_man.sh $<TARGET_FILE:headrace>
+                     $<TARGET_FILE:headraced>)
 
 # The main job, with the programs of this build.
 headrace_script_test("demo: dam break from load to pictures" demo support/check_demo.sh ${PROJECT_BINARY_DIR} ${root}

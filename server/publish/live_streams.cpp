@@ -45,6 +45,13 @@ proto::Result<proto::StreamCloseReply> LiveStreams::close(const std::string& str
     return reply;
 }
 
+std::vector<proto::StreamState> LiveStreams::states() const {
+    std::vector<proto::StreamState> states;
+    for (const auto& [topic, stream] : streams_)
+        states.push_back({topic, proto::StreamMode::live, stream.active, stream.seq, {}, {}});
+    return states;
+}
+
 bool LiveStreams::drop(DemandId demand) {
     const auto place = std::find_if(streams_.begin(), streams_.end(),
                                     [&](const auto& entry) { return entry.second.demand == demand; });

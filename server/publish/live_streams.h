@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 #include <zmq.hpp>
 
 #include "proto/messages.h"
@@ -25,6 +26,7 @@ class LiveStreams {
     proto::Result<proto::StreamCloseReply> close(const std::string& stream);
     bool has(const std::string& stream) const { return streams_.contains(stream); }
     std::size_t size() const { return streams_.size(); }
+    std::vector<proto::StreamState> states() const;
 
     bool drop(DemandId demand);               // ends the stream of this demand; false: not one of ours
     bool deliver(const CaptureFor& capture);  // false: not for one of ours

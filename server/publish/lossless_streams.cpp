@@ -125,6 +125,14 @@ proto::Result<proto::StreamCloseReply> LosslessStreams::close(const std::string&
     return reply;
 }
 
+std::vector<proto::StreamState> LosslessStreams::states() const {
+    std::vector<proto::StreamState> states;
+    for (const auto& [topic, stream] : streams_)
+        states.push_back({topic, proto::StreamMode::lossless, !stream.is_closing, stream.seq,
+                          std::ssize(stream.unacked), stream.window});
+    return states;
+}
+
 bool LosslessStreams::deliver(const CaptureFor& capture) {
     const auto place = std::find_if(streams_.begin(), streams_.end(),
                                     [&](const auto& entry) { return entry.second.demand == capture.demand; });

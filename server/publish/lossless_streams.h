@@ -41,6 +41,7 @@ class LosslessStreams {
     proto::Result<proto::StreamCloseReply> close(const std::string& stream);
     bool has(const std::string& stream) const { return streams_.contains(stream); }
     std::size_t size() const { return streams_.size(); }
+    std::vector<proto::StreamState> states() const;
 
     bool deliver(const CaptureFor& capture);             // false: not for one of ours
     bool fail(DemandId demand, const std::string& why);  // false: not one of ours

@@ -57,6 +57,12 @@ std::string listen(zmq::socket_t& socket, const std::string& endpoint) {
 
 }  // namespace
 
+void tell_counts(PublisherCounts counts, proto::SimStatusReply& status) {
+    status.streams = std::ssize(counts.readers);
+    status.readers = std::move(counts.readers);
+    status.recordings = static_cast<std::int64_t>(counts.recordings);
+}
+
 struct Publisher::Impl {
     Impl(zmq::context_t& context, const PublisherOptions& options, FrameHub& frame_hub, server::EventLog& event_log,
          const server::StatusBoard& status_board, server::ProbeBoard& probe_board, server::Outbox& replies)
@@ -208,8 +214,18 @@ struct Publisher::Impl {
     }
 
     void refresh_counts() {
-        counts = Counts{static_cast<std::uint32_t>(live.size() + lossless.size()),
-                        static_cast<std::uint32_t>(recorder.size())};
+        recordings = static_cast<std::uint32_t>(recorder.size());
+        if (live.size() + lossless.size() == 0 && !has_readers) return;
+        std::vector<proto::StreamState> fresh = live.states();
+        for (proto::StreamState& state : lossless.states()) fresh.push_back(std::move(state));
+        has_readers = !fresh.empty();
+        const std::lock_guard lock(readers_mutex);
+        readers.swap(fresh);
+    }
+
+    PublisherCounts read_counts() const {
+        const std::lock_guard lock(readers_mutex);
+        return {recordings, readers};
     }
 
     template <class Reply>
@@ -258,8 +274,7 @@ struct Publisher::Impl {
         if (!is_status_wanted || now < next_status) return;
         next_status = now + std::chrono::seconds(1);
         proto::SimStatusReply status = board.read()->status;
-        status.streams = static_cast<std::int64_t>(live.size() + lossless.size());
-        status.recordings = static_cast<std::int64_t>(recorder.size());
+        tell_counts(read_counts(), status);
         status.uptime_s = std::chrono::duration<double>(now - started).count();
         events_socket.send(text_message("status", proto::to_json(status).dump()), zmq::send_flags::dontwait);
     }
@@ -284,10 +299,11 @@ struct Publisher::Impl {
     Clock::time_point next_status{};
     Clock::time_point next_stall_check{Clock::now() + std::chrono::hours(1)};
 
-    struct Counts {
-        std::uint32_t streams{0}, recordings{0};
-    };
-    std::atomic<Counts> counts{};  // 8 bytes: lock-free
+    // What others may ask for at any time.
+    std::atomic<std::uint32_t> recordings{0};
+    mutable std::mutex readers_mutex;
+    std::vector<proto::StreamState> readers;
+    bool has_readers{false};  // as last told; the publisher thread's
 
     std::mutex mutex;
     std::vector<Errand> errands;
@@ -314,8 +330,7 @@ const std::string& Publisher::data_endpoint() const {
 }
 
 PublisherCounts Publisher::counts() const {
-    const Impl::Counts counts = impl_->counts;
-    return {counts.streams, counts.recordings};
+    return impl_->read_counts();
 }
 
 void Publisher::start() {
@@ -338,7 +353,7 @@ void Publisher::post(server::Token token, PublisherRequest request) {
 }
 
 void Publisher::log_command(std::string json, double time) {
-    if (impl_->counts.load().recordings == 0) return;
+    if (impl_->recordings.load() == 0) return;
     {
         const std::lock_guard lock(impl_->mutex);
         impl_->errands.push_back({0, CommandLine{std::move(json), time}});

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "proto/messages.h"
 #include "server/event_log.h"
@@ -33,8 +34,12 @@ using PublisherRequest =
     std::variant<proto::StreamOpen, proto::StreamAck, proto::StreamClose, proto::RecordStart, proto::RecordStop>;
 
 struct PublisherCounts {
-    std::size_t streams{0}, recordings{0};
+    std::size_t recordings{0};
+    std::vector<proto::StreamState> readers;  // one per stream
 };
+
+// Puts them into a status, which another thread has written.
+void tell_counts(PublisherCounts counts, proto::SimStatusReply& status);
 
 class Publisher {
   public:

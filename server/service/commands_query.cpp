@@ -24,9 +24,7 @@ Clock::time_point after(double seconds) {
 
 proto::SimStatusReply present_status(const CommandContext& context) {
     proto::SimStatusReply status = context.board.read()->status;
-    const publish::PublisherCounts counts = context.publisher_counts();
-    status.streams = static_cast<std::int64_t>(counts.streams);
-    status.recordings = static_cast<std::int64_t>(counts.recordings);
+    publish::tell_counts(context.publisher_counts(), status);
     status.uptime_s = std::chrono::duration<double>(Clock::now() - context.started).count();
     return status;
 }

@@ -1,10 +1,14 @@
 // The OpenRPC document, built from the command table, so that it cannot say anything else than what the server does.
 #include <limits>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include "proto/envelope.h"
+#include "proto/event_types.h"
+#include "proto/examples.h"
+#include "proto/methods.h"
 #include "proto/version.h"
 #include "server/service/commands.h"
 #include "server/solver/models/registry.h"
@@ -36,17 +40,19 @@ bool is_required(const Json& schema, std::string_view member) {
     return false;
 }
 
-// An object schema as OpenRPC's list of named parameters.
+// An object schema as OpenRPC's list of named parameters, of which the required ones come first.
 Json params_list(const Json& schema) {
     Json list = Json::array();
     if (!schema.contains("properties")) return list;
-    for (const auto& [name, property] : schema["properties"].items()) {
-        Json entry{{"name", name}};
-        if (property.contains("description")) entry["description"] = property["description"];
-        entry["required"] = is_required(schema, name);
-        entry["schema"] = property;
-        list.push_back(std::move(entry));
-    }
+    for (const bool wants_required : {true, false})
+        for (const auto& [name, property] : schema["properties"].items()) {
+            if (is_required(schema, name) != wants_required) continue;
+            Json entry{{"name", name}};
+            if (property.contains("description")) entry["description"] = property["description"];
+            entry["required"] = wants_required;
+            entry["schema"] = property;
+            list.push_back(std::move(entry));
+        }
     return list;
 }
 
@@ -62,8 +68,39 @@ std::string_view socket_name(proto::MethodSocket socket) {
     return "control";
 }
 
+// In a document the schema's own "$defs" are not at hand: they are among the document's components.
+void refer_to_components(Json& schema) {
+    if (schema.is_object()) schema.erase("$defs");
+    for (auto& [key, part] : schema.items()) {
+        constexpr std::string_view kLocal = "#/$defs/";
+        if (key == "$ref" && part.get_ref<const std::string&>().starts_with(kLocal))
+            part = "#/components/schemas/" + part.get<std::string>().substr(kLocal.size());
+        else if (part.is_structured())
+            refer_to_components(part);
+    }
+}
+
+// A request and its reply as OpenRPC pairs them.
+Json describe_examples(std::string_view method) {
+    Json pairings = Json::array();
+    for (const proto::Example& example : proto::examples()) {
+        if (example.method != method) continue;
+        const Json pair = Json::parse(example.json);
+        Json params = Json::array();
+        for (const auto& [name, value] : pair["request"]["params"].items())
+            params.push_back({{"name", name}, {"value", value}});
+        pairings.push_back({{"name", method},
+                            {"params", std::move(params)},
+                            {"result", {{"name", "result"}, {"value", pair["reply"]["result"]}}}});
+    }
+    return pairings;
+}
+
 Json describe_method(const CommandTable::Entry& entry) {
-    const Json params = proto::method_params_schema(entry.info.name);
+    Json params = proto::method_params_schema(entry.info.name);
+    Json result = proto::method_result_schema(entry.info.name);
+    refer_to_components(params);
+    refer_to_components(result);
     Json errors = Json::array();
     for (ErrorCode code : kCommonErrors) errors.push_back(error_entry(code));
     for (ErrorCode code : entry.rules.errors) errors.push_back(error_entry(code));
@@ -71,8 +108,9 @@ Json describe_method(const CommandTable::Entry& entry) {
             {"summary", entry.info.summary},
             {"paramStructure", "by-name"},
             {"params", params_list(params)},
-            {"result", {{"name", "result"}, {"schema", proto::method_result_schema(entry.info.name)}}},
+            {"result", {{"name", "result"}, {"schema", std::move(result)}}},
             {"errors", std::move(errors)},
+            {"examples", describe_examples(entry.info.name)},
             {"x-socket", socket_name(entry.info.socket)},
             {"x-params-schema", params}};
 }
@@ -127,11 +165,46 @@ Json describe_models() {
     return models;
 }
 
-// Schemas refer to "#/$defs/...": in the document they stand in, that is its own root.
-void collect_definitions(const Json& methods, Json& definitions) {
-    for (const Json& method : methods)
-        for (const Json* schema : {&method["x-params-schema"], &method["result"]["schema"]})
-            if (const auto found = schema->find("$defs"); found != schema->end()) definitions.update(*found);
+Json describe_events() {
+    Json topics = Json::array();
+    for (const proto::EventTypeInfo& info : proto::kEventTypes) {
+        Json data = Json::array();
+        for (const auto name : std::views::split(info.data, ','))
+            data.push_back(std::string_view(name.begin(), name.end()));
+        topics.push_back({{"type", info.type},
+                          {"topic", info.type.substr(0, info.type.find('.'))},
+                          {"when", info.when},
+                          {"data", std::move(data)},
+                          {"objects", info.has_objects}});
+    }
+    Json schema = proto::json_schema<proto::Event>();
+    refer_to_components(schema);
+    return {{"schema", std::move(schema)}, {"types", std::move(topics)}};
+}
+
+Json describe_errors() {
+    Json errors = Json::array();
+    for (const proto::ErrorInfo& info : proto::kErrors)
+        errors.push_back({{"name", info.name},
+                          {"code", info.rpc_code},
+                          {"retryable", info.retryable},
+                          {"exit_status", info.exit_code},
+                          {"meaning", info.meaning}});
+    return {{"schema", proto::error_schema()}, {"names", std::move(errors)}};
+}
+
+// Parts that schemas refer to.
+Json describe_components() {
+    Json schemas = Json::object();
+    const auto collect = [&](const Json& schema) {
+        if (const auto found = schema.find("$defs"); found != schema.end()) schemas.update(*found);
+    };
+    for (const proto::MethodInfo& info : proto::kMethods) {
+        collect(proto::method_params_schema(info.name));
+        collect(proto::method_result_schema(info.name));
+    }
+    refer_to_components(schemas);
+    return {{"schemas", std::move(schemas)}};
 }
 
 }  // namespace
@@ -139,17 +212,17 @@ void collect_definitions(const Json& methods, Json& definitions) {
 Json make_description(const CommandTable& table) {
     Json methods = Json::array();
     for (const CommandTable::Entry& entry : table.entries()) methods.push_back(describe_method(entry));
-    Json definitions = Json::object();
-    collect_definitions(methods, definitions);
     return {{"openrpc", "1.2.6"},
             {"info",
              {{"title", "headraced"},
               {"version", proto::kProgramVersion},
               {"description", "A fluid simulation that is commanded while it runs. SI units throughout."}}},
             {"methods", std::move(methods)},
-            {"$defs", std::move(definitions)},
+            {"components", describe_components()},
             {"x-protocol", proto::kProtocolVersion},
             {"x-sockets", describe_sockets()},
+            {"x-events", describe_events()},
+            {"x-errors", describe_errors()},
             {"x-state", describe_states()},
             {"x-models", describe_models()}};
 }

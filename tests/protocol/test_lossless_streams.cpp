@@ -93,6 +93,26 @@ TEST_CASE("LosslessStreams.TheWindowHoldsTheRunUntilItIsAcknowledged") {
     CHECK(closed["last_seq"] == 11);
 }
 
+TEST_CASE("LosslessStreams.StatusTellsHowFarEachReaderIsBehind") {
+    Loaded loaded;
+    CHECK_FALSE(loaded.client.call("sim.status").contains("readers"));
+    loaded.client.call("stream.open", {{"mode", "live"}});
+    const Json stream = loaded.data.call("stream.open", every_step(16));
+    loaded.client.call("sim.step", {{"steps", 3}});  // four frames: the first is of the state that was there
+    const auto readers = [&] { return loaded.client.call("sim.status")["readers"]; };
+    Json now;
+    CHECK(eventually([&] { return (now = readers()).size() == 2 && now[1]["frames"] == 4; }));
+    CHECK(now[0] == Json({{"stream", "frame/1"}, {"mode", "live"}, {"subscribed", false}, {"frames", 0}}));
+    CHECK(now[1]["stream"] == stream["stream"]);
+    CHECK(now[1]["behind"] == 4);
+    CHECK(now[1]["window"] == 16);
+    loaded.data.call("stream.ack", {{"stream", stream["stream"]}, {"seq", 3}});
+    CHECK(eventually([&] { return (now = readers())[1]["behind"] == 1; }));
+    loaded.data.call("stream.close", {{"stream", stream["stream"]}});
+    loaded.data.call("stream.ack", {{"stream", stream["stream"]}, {"seq", 4}});
+    CHECK(eventually([&] { return readers().size() == 1; }));
+}
+
 TEST_CASE("LosslessStreams.ControlAnswersWhileAReaderHoldsTheRun") {
     Loaded loaded;
     const Json stream = loaded.data.call("stream.open", every_step(1));

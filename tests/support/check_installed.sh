@@ -23,4 +23,9 @@ preset=$(find "$prefix" -path '*/headrace/presets/bowl.json')
 [ -s "$preset" ] || { echo "the presets are not installed" >&2; exit 1; }
 check 'bowl: 2,197 particles, ' headrace plan "$preset"
 [ -n "$(find "$prefix" -path '*/headrace/schemas/scene.schema.json')" ] || { echo "no schemas" >&2; exit 1; }
+for file in share/man/man1/headrace.1 share/man/man1/headraced.1 share/man/man1/headrace-run.1 \
+    share/bash-completion/completions/headrace share/zsh/site-functions/_headrace \
+    share/fish/vendor_completions.d/headrace.fish; do
+    [ -s "$prefix/$file" ] || { echo "$file is not installed" >&2; exit 1; }
+done
 echo "the installed programs work"

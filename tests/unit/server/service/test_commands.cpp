@@ -61,7 +61,8 @@ struct Bench {
         .record_command = [this](const std::string& json, double) { recorded.push_back(Json::parse(json)); },
         .publisher_counts =
             [] {
-                return publish::PublisherCounts{2, 1};
+                return publish::PublisherCounts{
+                    1, {proto::StreamState{.stream = "frame/1"}, proto::StreamState{.stream = "data/1"}}};
             },
         .shut_down = [this] { ++shutdowns; },
         .pending = {},
@@ -234,6 +235,20 @@ TEST_CASE("Commands.QueriesOfASceneThatIsNotThereYetAreBusy") {
     }
 }
 
+namespace {
+
+// A schema as it stands in a document: what it refers to is among the document's components.
+Json in_document(Json schema) {
+    schema.erase("$defs");
+    std::string text = schema.dump();
+    const std::string local = "#/$defs/";
+    for (std::size_t at = 0; (at = text.find(local, at)) != std::string::npos;)
+        text.replace(at, local.size(), "#/components/schemas/");
+    return Json::parse(text);
+}
+
+}  // namespace
+
 TEST_CASE("Commands.TheDescriptionIsOpenRpcOfTheWholeTable") {
     Bench bench;
     const Json document = bench.ask("describe")["result"];
@@ -242,8 +257,9 @@ TEST_CASE("Commands.TheDescriptionIsOpenRpcOfTheWholeTable") {
     for (const Json& method : document["methods"]) {
         INFO(method["name"]);
         const std::string name = method["name"];
-        CHECK(method["result"]["schema"] == proto::method_result_schema(name));
-        const Json properties = proto::method_params_schema(name)["properties"];
+        CHECK(method["result"]["schema"] == in_document(proto::method_result_schema(name)));
+        const Json properties = in_document(proto::method_params_schema(name))["properties"];
+        CHECK(method["examples"].size() == 1);
         REQUIRE(method["params"].size() == properties.size());
         for (const Json& param : method["params"])
             CHECK(param["schema"] == properties[param["name"].get<std::string>()]);
@@ -251,4 +267,6 @@ TEST_CASE("Commands.TheDescriptionIsOpenRpcOfTheWholeTable") {
     }
     CHECK(document["x-models"]["thesis"]["parameters"].size() > 5);
     CHECK(document["x-sockets"].size() == 4);
+    CHECK(document["components"]["schemas"].contains("shape"));
+    CHECK(document["x-errors"]["names"].size() == proto::kErrors.size());
 }
