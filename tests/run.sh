@@ -16,7 +16,7 @@ skipped.
   --full          installs those tools too (VTK, jsonschema, clang-format, valgrind, Node.js and its packages); then a
                   skipped test is a failure, unless it lacks the reference data of the validation
   --preset NAME   release (default), debug, asan or tsan: see CMakePresets.json
-  --label LABEL   only tests with this label: unit, stability, protocol, validation, cli, script, demo
+  --label LABEL   only tests with this label: unit, stability, protocol, validation, cli, script, python, demo
   --help          this text
 
   tests/run.sh --label unit -R Kernel     further arguments go to ctest
@@ -51,8 +51,10 @@ case "$preset" in
     *) die "no preset '$preset'" "release, debug, asan or tsan" ;;
 esac
 
-packages=("${headrace_build_packages[@]}" catch2 python3 python3-zmq python3-numpy)
-[ $full = no ] || packages+=(python3-vtk9 python3-jsonschema clang-format valgrind=valgrind nodejs=node npm=npm)
+packages=("${headrace_build_packages[@]}" catch2 python3 python3-zmq python3-numpy python3-pytest)
+[ $full = no ] || packages+=(python3-vtk9 python3-jsonschema clang-format valgrind=valgrind nodejs=node npm=npm
+    python3-venv python3-pip python3-setuptools python3-wheel python3-matplotlib python3-zstandard mypy=mypy
+    parallel slurm-wlm munge)
 install_packages "${packages[@]}"
 
 # The MCAP reader of another project judges our recordings.

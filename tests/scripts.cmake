@@ -74,6 +74,8 @@ headrace_script_test("vtp: VTK finds the numbers of the CSV files" script suppor
 headrace_script_test("install: the programs work from where they are installed" script support/check_installed.sh
                      ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR} ${results}/prefix)
 
+include(${CMAKE_CURRENT_SOURCE_DIR}/python/tests.cmake)
+
 # The main job, with the programs of this build.
 headrace_script_test("demo: dam break from load to pictures" demo support/check_demo.sh ${PROJECT_BINARY_DIR} ${root}
                      ${results}/demo)

@@ -115,7 +115,7 @@ class ObjectOperations(NamedGroup[Reply]):
         return found[name]
 
     @operation
-    def add(self, name: str, /, shape: Mapping[str, Any], role: str | None = "obstacle", **members: Any) -> Steps[Reply]:
+    def add(self, name: str, /, shape: Mapping[str, Any], role: str = "obstacle", **members: Any) -> Steps[Reply]:
         """Add an object between two steps.
 
         Parameters
@@ -123,8 +123,8 @@ class ObjectOperations(NamedGroup[Reply]):
         name : str
         shape : mapping
             Such as ``{"sphere": {"center": [0.6, 0.1], "radius": 0.08}}``, lengths in m.
-        role : {"obstacle", "container"} or None
-            What of the shape is solid: its inside, or everything outside. None for planes, which have a normal.
+        role : {"obstacle", "container"}
+            What of the shape is solid: its inside, or everything outside. Of no meaning to planes, which have a normal.
         **members
             As in scene documents: ``motion``, ``surface_velocity``, ``slip``.
 
@@ -137,7 +137,7 @@ class ObjectOperations(NamedGroup[Reply]):
         ------
         ObjectExists, InvalidParams, SceneInvalid, LimitExceeded, WrongState
         """
-        document = without_none(name=name, role=role if "plane" not in shape else None, shape=shape, **members)
+        document = without_none(name=name, role=role, shape=shape, **members)
         return (yield from self._call("objects.add", object=document))
 
     @operation

@@ -95,7 +95,9 @@ class LiveSource:
 
     def read(self, seconds: float) -> Steps[Frame | None]:
         frame, self._first = self._first, None
-        wait = seconds if frame is None else 0.0
+        if frame is not None:
+            return frame
+        wait = seconds
         while (parts := (yield from self._channel.receive(wait))) is not None:
             frame, wait = Frame(parts[0].buffer), 0.0
         return frame
