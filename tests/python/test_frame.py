@@ -10,7 +10,7 @@ from typing import Any, Callable
 import headrace
 import numpy as np
 import pytest
-from headrace import errors
+from headrace._replies import CLASSES, from_reply
 from headrace.frame import FIELD, HEADER, Frame
 
 from conftest import PACKAGE, ROOT
@@ -126,13 +126,13 @@ def test_the_plain_example_repeats_the_same_tables() -> None:
 def test_each_error_of_the_protocol_has_its_class() -> None:
     text = (ROOT / "proto" / "README.md").read_text()
     table = re.findall(r"^\| `(\w+)` \| -32\d+ \| \d \|", text, re.MULTILINE)
-    assert len(table) > 20 and sorted(errors.BY_NAME) == sorted(table)
-    for name, kind in errors.BY_NAME.items():
+    assert len(table) > 20 and sorted(CLASSES) == sorted(table)
+    for name, kind in CLASSES.items():
         assert kind.__name__.lower() == name.replace("_", "") and getattr(headrace, kind.__name__) is kind
 
 
 def test_an_error_of_a_later_server_keeps_its_name() -> None:
-    error = errors.from_reply({"code": -1, "message": "m", "data": {"name": "new_one", "retryable": True}})
+    error = from_reply({"code": -1, "message": "m", "data": {"name": "new_one", "retryable": True}})
     assert type(error) is headrace.Error and (error.name, error.retryable) == ("new_one", True)
 
 

@@ -17,6 +17,7 @@ import zmq
 from . import errors
 from ._json import to_text
 from ._operation import Steps, Wait
+from ._replies import from_reply
 
 PROTOCOL = 1
 DEFAULT_ENDPOINT = "tcp://127.0.0.1:5755"
@@ -185,7 +186,7 @@ def is_json(part: zmq.Frame) -> bool:
 def result_of(reply: Mapping[str, Any]) -> Any:
     if "result" in reply:
         return reply["result"]
-    raise errors.from_reply(reply.get("error") or {})
+    raise from_reply(reply.get("error") or {})
 
 
 def _parsed(part: zmq.Frame) -> dict[str, Any]:

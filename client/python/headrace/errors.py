@@ -6,8 +6,6 @@ False
 
 from __future__ import annotations
 
-from typing import Any, Mapping
-
 
 class Error(Exception):
     """What the server refused, or what went wrong on the way to it.
@@ -237,24 +235,3 @@ class Usage(Error):
     """An argument makes no sense, which the client tells without asking the server."""
 
     name = "usage"
-
-
-def _classes() -> dict[str, type[Error]]:
-    return {kind.name: kind for kind in Error.__subclasses__()}
-
-
-BY_NAME: Mapping[str, type[Error]] = _classes()
-"""The class of each error name."""
-
-
-def from_reply(error: Mapping[str, Any]) -> Error:
-    """The exception for the member ``error`` of a JSON-RPC reply."""
-    data = error.get("data") or {}
-    name = str(data.get("name", ""))
-    made = BY_NAME.get(name, Error)(str(error.get("message", "")), path=str(data.get("path", "")),
-                                    hint=str(data.get("hint", "")), retryable=bool(data.get("retryable", False)))
-    made.name = name
-    return made
-
-
-__all__ = ["Error", *(kind.__name__ for kind in BY_NAME.values())]
