@@ -51,7 +51,8 @@ def test_types_tell_the_two_clients_apart(tmp_path: pathlib.Path) -> None:
         pytest.skip("mypy is not installed")
     (tmp_path / "use.py").write_text(
         "import headrace\nfrom headrace import aio\n"
-        "def one(sim: headrace.Simulation) -> int:\n    sim.stepp\n    headrace.ObjectNotFound('x').hint\n    return sim.snapshot().step\n"
+        "def one(sim: headrace.Simulation) -> int:\n    sim.stepp\n    headrace.ObjectNotFound('x').hint\n"
+        "    return sim.snapshot().step\n"
         "async def two(sim: aio.Simulation) -> int:\n    (await sim.snapshot()).step\n    return sim.snapshot().step\n")
     done = subprocess.run(["mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), "use.py"], cwd=tmp_path,
                           capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(PACKAGE)})
@@ -90,7 +91,8 @@ def test_signatures_show_what_a_user_gives_and_gets(tmp_path: pathlib.Path) -> N
     with headrace.Simulation(threads=1, data=tmp_path) as sim:
         assert str(inspect.signature(sim.step)) == "(steps: 'int' = 1) -> 'Reply'"
         assert str(inspect.signature(sim.params.info)) == "(name: 'str') -> 'Parameter'"
-    assert str(inspect.signature(aio.Simulation(threads=1, data=tmp_path).step)) == "(steps: 'int' = 1) -> 'Awaitable[Reply]'"
+    awaited = aio.Simulation("ipc:///nowhere")  # not connected yet
+    assert str(inspect.signature(awaited.step)) == "(steps: 'int' = 1) -> 'Awaitable[Reply]'"
 
 
 def sessions(file: pathlib.Path) -> list[str]:

@@ -9,6 +9,7 @@ from typing import Any
 import headrace
 import numpy as np
 import pytest
+from headrace._json import Reply, with_numbers
 
 from conftest import tank
 
@@ -249,6 +250,14 @@ def test_errors_tell_place_and_remedy(sim: Any) -> None:
     with pytest.raises(headrace.SceneInvalid) as scene:
         sim.load(tank("thesis", spacing=0.9))
     assert scene.value.path.startswith("scene.fluids[0]")
+
+
+def test_numbers_that_json_lacks_arrive_as_numbers() -> None:
+    reply = Reply(with_numbers({"fault": {"position": [0.1, "NaN"], "velocity": ["Infinity", "-Infinity"]},
+                                "neighbours": [{"object": "NaN", "distance": "NaN"}]}))
+    assert np.array_equal(reply.fault.position, [0.1, np.nan], equal_nan=True)
+    assert reply.fault.velocity == [np.inf, -np.inf]
+    assert reply.neighbours[0].object == "NaN" and np.isnan(reply.neighbours[0].distance)
 
 
 def test_no_server_answers_within_patience() -> None:

@@ -80,6 +80,23 @@ def test_a_long_run_outlasts_the_patience_of_its_client(private: headrace.Simula
         assert guest.run(until=1.0, pace=1.0).state == "finished"
 
 
+def test_an_interrupted_run_leaves_run_and_client_as_they_are(private: headrace.Simulation) -> None:
+    def interrupt() -> None:
+        with headrace.Simulation(private.endpoint) as other:
+            while other.status().state != "running":
+                pass
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        private.run(until="steps=100000000")
+    thread.join()
+    assert private.status().state == "running"
+    private.cancel()
+    assert private.step(2).steps == 2
+
+
 def test_a_cancelled_task_leaves_the_client_usable() -> None:
     async def scenario() -> None:
         async with aio.Simulation(threads=1) as sim:

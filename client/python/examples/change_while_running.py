@@ -23,4 +23,5 @@ with headrace.Simulation() as sim:
             changed = sim.params.set(gravity=-g)
             print(f"gravity turned round before step {changed.step + 1}, t {changed.time:.3f} s")
         speed = np.linalg.norm(frame.velocity, axis=1)
-        print(f"t {frame.time:5.2f} s  rms speed {np.sqrt(np.mean(speed**2)):6.3f} m/s  " + "#" * round(20 * speed.mean()))
+        rms = np.sqrt(np.mean(speed**2))
+        print(f"t {frame.time:5.2f} s  rms speed {rms:6.3f} m/s  " + "#" * round(20 * rms))

@@ -16,7 +16,7 @@ parser.add_argument("--scale", type=float, default=1.0, help="of the instants sh
 parser.add_argument("--out", default="thesis_scenes.png")
 args = parser.parse_args()
 
-SCENES = {"bowl": [0.0, 0.2, 0.4, 0.7, 1.2], "dam_break": [0.0, 0.15, 0.3, 0.6, 1.0], "obstacle": [0.0, 0.15, 0.3, 0.5, 0.8]}
+SCENES = {"bowl": [0, 0.2, 0.4, 0.7, 1.2], "dam_break": [0, 0.15, 0.3, 0.6, 1], "obstacle": [0, 0.15, 0.3, 0.5, 0.8]}
 
 figure, rows = plt.subplots(3, 5, figsize=(13, 7), layout="constrained")
 with headrace.Simulation() as sim:

@@ -172,8 +172,8 @@ class Connection:
             raise how
 
     def lost(self, what: str) -> errors.ConnectionFailed:
-        return errors.ConnectionFailed(f"{what} from {self.endpoint}", hint="" if self._gone else "start one: headraced &",
-                                       retryable=True)
+        hint = "" if self._gone else "start one: headraced &"
+        return errors.ConnectionFailed(f"{what} from {self.endpoint}", hint=hint, retryable=True)
 
     def close(self) -> None:
         self._context.destroy(linger=0)

@@ -100,8 +100,9 @@ class ParameterOperations(NamedGroup[Parameter]):
 
 
 def _parameters(reply: Reply) -> dict[str, Parameter]:
-    return {each["name"]: Parameter(each["name"], each["value"], each.default_value, each.unit or "", each.meaning or "")
-            for each in reply["parameters"]}
+    found = (Parameter(each["name"], each["value"], each.default_value, each.unit or "", each.meaning or "")
+             for each in reply["parameters"])
+    return {parameter.name: parameter for parameter in found}
 
 
 class ObjectOperations(NamedGroup[Reply]):

@@ -16,8 +16,8 @@ _NAMES = {"object", "name", "term"}  # members that hold names, never numbers
 class Reply(Mapping[str, Any]):
     """A JSON object of the server: a mapping whose members are attributes as well.
 
-    Members are those of `proto/README.md`, "Messages"; a later server may send further ones. An optional member that was
-    not sent is None as an attribute, and a KeyError as an item.
+    Members are those of `proto/README.md`, "Messages"; a later server may send further ones. An optional member that
+    was not sent is None as an attribute, and a KeyError as an item.
     """
 
     def __init__(self, members: Mapping[str, Any]) -> None:

@@ -24,7 +24,7 @@ T_co = TypeVar("T_co", covariant=True)
 
 @dataclass(frozen=True)
 class Wait:
-    """Until `source` (a socket, or a file descriptor) can be read, or `seconds` have passed; sent back: whether it can."""
+    """Until `source` (socket or file descriptor) can be read, or `seconds` have passed. Sent back: whether it can."""
 
     source: zmq.Socket[bytes] | int
     seconds: float
@@ -74,7 +74,8 @@ class operation(Generic[P, T]):
         def bound(*args: P.args, **kwargs: P.kwargs) -> Any:
             return client._carry_out(self.steps(client, *args, **kwargs))
 
-        bound.__signature__ = _outer_signature(self.steps, isinstance(client, Asynchronous))  # type: ignore[attr-defined]
+        signature = _outer_signature(self.steps, isinstance(client, Asynchronous))
+        bound.__signature__ = signature  # type: ignore[attr-defined]
         return bound
 
 

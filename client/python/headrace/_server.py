@@ -40,8 +40,9 @@ class PrivateServer:
     def __init__(self, threads: int | None, data: str | os.PathLike[str] | None) -> None:
         binary = find_server()
         if binary is None:
-            raise ConnectionFailed("headraced is not found", hint="set HEADRACE_SERVER_BINARY to its path, put it on the "
-                                   "PATH, or give the endpoint of a running one: Simulation('tcp://127.0.0.1:5755')")
+            raise ConnectionFailed("headraced is not found", hint="set HEADRACE_SERVER_BINARY to its path, put it on "
+                                   "the PATH, or give the endpoint of a running one: "
+                                   "Simulation('tcp://127.0.0.1:5755')")
         self.endpoint = ""
         folder = _private_folder()
         if data is None:
@@ -109,7 +110,8 @@ def _private_folder() -> pathlib.Path:
     try:
         return pathlib.Path(tempfile.mkdtemp(prefix="headrace-", dir=base))
     except OSError as error:
-        raise FileError(f"{base}: {error.strerror}", path=base, hint="set TMPDIR to a folder that can be written") from error
+        raise FileError(f"{base}: {error.strerror}", path=base,
+                        hint="set TMPDIR to a folder that can be written") from error
 
 
 def _end(process: subprocess.Popen[bytes], folder: pathlib.Path) -> None:

@@ -269,7 +269,7 @@ class SimulationOperations(Group, Generic[StreamT, RecordingT]):
         Returns
         -------
         Reply
-            Vectors are arrays of shape (3,), the last component 0 in 2D, in SI units: `proto/README.md`, "One particle".
+            Vectors have the shape (3,), the last component 0 in 2D, in SI units; `proto/README.md`, "One particle".
 
         Raises
         ------

@@ -10,7 +10,7 @@ from .errors import Usage
 
 Until = Union[float, str, Mapping[str, Any], None]
 """``2.0``: t = 2 s. ``"+0.5"``: 0.5 s from now. ``"step=400"``, ``"steps=400"``: that step, so many steps from now.
-``"at-rest"``. ``"gauge>0.3"``, ``"post.fx<20"``: the value of a probe. A mapping: as `sim.run` of the protocol takes it.
+``"at-rest"``. ``"gauge>0.3"``, ``"post.fx<20"``: the value of a probe. A mapping: as the protocol's `sim.run` takes it.
 None: no end."""
 
 _PROBE = re.compile(r"(?P<probe>[^<>]+)(?P<sign>[<>])(?P<value>.+)", re.DOTALL)

@@ -97,7 +97,8 @@ class Frame(Mapping[str, Array]):
         try:
             return self._arrays[name]
         except KeyError:
-            raise KeyError(f"this frame has no {name!r}, but {', '.join(self._arrays)}: ask for it with fields=") from None
+            there = ", ".join(self._arrays)
+            raise KeyError(f"this frame has no {name!r}, but {there}: ask for it with fields=") from None
 
     def __getattr__(self, name: str) -> Array:
         try:
@@ -157,7 +158,7 @@ def _arrays(message: memoryview, header: Any) -> Iterator[tuple[str, Array]]:
         if offset % ALIGNMENT or offset < table_end or size > message.nbytes - offset:
             raise ParseError(f"a frame whose array {name!r} lies outside of it")
         if entry["encoding"] != 0 or entry["scale"] != 1 or entry["bias"] != 0:
-            raise ParseError(f"a frame whose array {name!r} has an encoding that is not known", hint="use a newer client")
+            raise ParseError(f"a frame whose array {name!r} has an unknown encoding", hint="use a newer client")
         if entry["dtype"] not in (b"<u4", b"<f4", b"<f8") or entry["components"] == 0:
             raise ParseError(f"a frame whose array {name!r} has a type that is not known")
         dtype, components = np.dtype(entry["dtype"].decode()), int(entry["components"])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One case of a parameter study, on a server of its own: prints one CSV line. `parallel.sh` and `slurm.sh` run many at once.
+"""One case of a parameter study, on a server of its own: prints one CSV line. `parallel.sh` and `slurm.sh` run many.
 
     case.py VISCOSITY [--until 0.6] [--threads 1]
 """
