@@ -98,6 +98,15 @@ def test_a_damaged_frame_is_named_and_the_others_are_not_affected(recorded: Any,
     assert scanned.damaged_bytes > 0
 
 
+def test_a_damaged_summary_is_not_believed(recorded: Any, tmp_path: pathlib.Path) -> None:
+    file, _, _ = recorded
+    content = bytearray(file.read_bytes())
+    content[-200] ^= 1
+    (tmp_path / "summary.mcap").write_bytes(content)
+    recording = headrace.Recording(tmp_path / "summary.mcap")
+    assert not recording.is_complete and [frame.step for frame in recording] == list(range(0, 51, 5))
+
+
 def test_a_damaged_length_costs_no_more_than_its_chunk(recorded: Any, tmp_path: pathlib.Path) -> None:
     file, _, _ = recorded
     content = bytearray(file.read_bytes()[:-20])

@@ -10,6 +10,8 @@ from typing import Any
 import headrace
 import numpy as np
 import pytest
+from headrace import Frame
+from headrace._stream import LosslessSource
 
 from conftest import run, tank
 
@@ -24,8 +26,8 @@ def test_a_slow_reader_holds_the_run_up_and_loses_nothing(sim: Any) -> None:
     steps = []
     with sim.stream(["id"], every=1, window=2, until="step=60") as stream:
         for frame in stream:
-            # With two frames unread at most, the run cannot be further ahead than them and the step under way.
-            assert sim.status().step <= frame.step + 3
+            # This frame and the next are under way; the step after them is done, and its frame has to wait.
+            assert sim.status().step <= frame.step + 2
             steps.append(frame.step)
     assert steps == list(range(61))
 
@@ -42,6 +44,16 @@ def test_a_stream_of_a_run_started_elsewhere_ends_with_it(sim: Any) -> None:
         sim.run(until="step=20", wait=False)
         assert [frame.step for frame in stream] == list(range(21))
         assert stream.read() is None
+
+
+def test_a_lost_frame_is_told(sim: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    keep = LosslessSource._keep
+    monkeypatch.setattr(LosslessSource, "_keep", lambda self, part: Frame(part.buffer).seq == 4 or keep(self, part))
+    with sim.stream(every=1, until="step=10") as stream:
+        assert [stream.read().seq for _ in range(3)] == [1, 2, 3]
+        with pytest.raises(headrace.ConnectionFailed, match="frames 4 to 4"):
+            stream.read()
+    sim.wait()
 
 
 def test_a_stream_left_early_does_not_hold_the_run(sim: Any) -> None:

@@ -16,6 +16,9 @@ import headrace
 import pytest
 import zmq
 from headrace import aio
+from headrace._asynchronous import drive as async_drive
+from headrace._blocking import drive as blocking_drive
+from headrace._operation import Wait
 
 from conftest import tank
 
@@ -80,21 +83,44 @@ def test_a_long_run_outlasts_the_patience_of_its_client(private: headrace.Simula
         assert guest.run(until=1.0, pace=1.0).state == "finished"
 
 
-def test_an_interrupted_run_leaves_run_and_client_as_they_are(private: headrace.Simulation) -> None:
-    def interrupt() -> None:
-        with headrace.Simulation(private.endpoint) as other:
-            while other.status().state != "running":
-                pass
-        os.kill(os.getpid(), signal.SIGINT)
+def test_ctrl_c_ends_the_wait_and_leaves_the_run_and_the_client() -> None:
+    script = """
+import headrace
+sim = headrace.Simulation(threads=1)
+sim.load("dam_break_2d")
+print(sim.endpoint, flush=True)
+try:
+    sim.run(until="steps=100000000")
+except KeyboardInterrupt:
+    print(sim.status().state)
+    sim.cancel()
+    print(sim.step(2).steps)
+"""
+    # A terminal's Ctrl-C goes to the whole process group of the program.
+    program = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, start_new_session=True)
+    assert program.stdout is not None
+    with headrace.Simulation(program.stdout.readline().strip()) as other:
+        while other.status().state != "running":
+            pass
+        os.killpg(program.pid, signal.SIGINT)
+    assert program.communicate(timeout=60)[0].split() == ["running", "2"]
 
-    thread = threading.Thread(target=interrupt)
-    thread.start()
-    with pytest.raises(KeyboardInterrupt):
-        private.run(until="steps=100000000")
-    thread.join()
-    assert private.status().state == "running"
-    private.cancel()
-    assert private.step(2).steps == 2
+
+@pytest.mark.parametrize("drive", [blocking_drive, lambda steps: asyncio.run(async_drive(steps))])
+def test_a_wait_tells_whether_there_is_something_to_read(drive: Any) -> None:
+    def steps() -> Any:
+        before = yield Wait(receiver, 0.01)
+        sender.send(b"x")
+        return before, (yield Wait(receiver, 30.0)), (yield Wait(pipe[0], 0.01)), os.write(pipe[1], b"x"), (
+            yield Wait(pipe[0], 30.0))
+
+    context, pipe = zmq.Context(), os.pipe()
+    sender, receiver = context.socket(zmq.PUSH), context.socket(zmq.PULL)
+    receiver.bind("inproc://here")
+    sender.connect("inproc://here")
+    assert drive(steps()) == (False, True, False, 1, True)
+    context.destroy(linger=0)
+    os.close(pipe[0]), os.close(pipe[1])
 
 
 def test_a_cancelled_task_leaves_the_client_usable() -> None:
