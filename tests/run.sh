@@ -13,8 +13,9 @@ usage: tests/run.sh [--full] [--preset NAME] [--label LABEL] [ctest arguments]
 Installs missing packages, builds, and runs the tests with ctest. Tests whose tools are not installed are reported as
 skipped.
 
-  --full          installs those tools too (VTK, jsonschema, clang-format, valgrind, Node.js and its packages); then a
-                  skipped test is a failure, unless it lacks the reference data of the validation
+  --full          installs those tools too (VTK, jsonschema, clang-format, valgrind, Node.js and its packages, Matplotlib,
+                  mypy, pip, GNU parallel, Slurm); then a skipped test is a failure, unless it lacks the reference data of
+                  the validation
   --preset NAME   release (default), debug, asan or tsan: see CMakePresets.json
   --label LABEL   only tests with this label: unit, stability, protocol, validation, cli, script, python, demo
   --help          this text

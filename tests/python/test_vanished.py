@@ -116,11 +116,13 @@ def test_a_wait_tells_whether_there_is_something_to_read(drive: Any) -> None:
 
     context, pipe = zmq.Context(), os.pipe()
     sender, receiver = context.socket(zmq.PUSH), context.socket(zmq.PULL)
-    receiver.bind("inproc://here")
-    sender.connect("inproc://here")
-    assert drive(steps()) == (False, True, False, 1, True)
-    context.destroy(linger=0)
-    os.close(pipe[0]), os.close(pipe[1])
+    try:
+        receiver.bind("inproc://here")
+        sender.connect("inproc://here")
+        assert drive(steps()) == (False, True, False, 1, True)
+    finally:
+        context.destroy(linger=0)
+        os.close(pipe[0]), os.close(pipe[1])
 
 
 def test_a_cancelled_task_leaves_the_client_usable() -> None:
