@@ -9,6 +9,7 @@ import inspect
 import io
 import os
 import pathlib
+import pydoc
 import re
 import shutil
 import subprocess
@@ -72,8 +73,9 @@ def test_both_clients_have_the_same_names(name: str) -> None:
 def operations() -> list[tuple[str, Any]]:
     kinds = (headrace.Simulation, headrace.Stream, headrace.simulation.Parameters, headrace.simulation.Objects,
              headrace.simulation.Probes, headrace.simulation.ServerRecording)
-    return [(f"{kind.__name__}.{name}", member) for kind in kinds for name, member in inspect.getmembers(kind)
-            if isinstance(member, (operation, operation_property)) and not name.startswith("_")]
+    found = ((kind, name, inspect.getattr_static(kind, name)) for kind in kinds for name in dir(kind) if name[0] != "_")
+    return [(f"{kind.__name__}.{name}", member) for kind, name, member in found
+            if isinstance(member, (operation, operation_property))]
 
 
 def test_every_operation_is_documented() -> None:
@@ -85,6 +87,14 @@ def test_every_operation_is_used_by_the_tests() -> None:
     text = "".join(file.read_text() for file in pathlib.Path(__file__).parent.glob("test_*.py"))
     used = {node.attr for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Attribute)}
     assert {name.split(".")[1] for name, _ in operations()} - used == set()
+
+
+def test_help_shows_every_operation_with_its_text() -> None:
+    for client in (headrace.Simulation, aio.Simulation):
+        text = pydoc.plain(pydoc.render_doc(client))
+        assert "Do so many steps." in text and "The stages of a step" in text
+    assert "step(self, steps: 'int' = 1) -> 'Reply'" in pydoc.plain(pydoc.render_doc(headrace.Simulation))
+    assert "step(self, steps: 'int' = 1) -> 'Awaitable[Reply]'" in pydoc.plain(pydoc.render_doc(aio.Simulation))
 
 
 def test_signatures_show_what_a_user_gives_and_gets(tmp_path: pathlib.Path) -> None:

@@ -56,6 +56,17 @@ def test_a_lost_frame_is_told(sim: Any, monkeypatch: pytest.MonkeyPatch) -> None
     sim.wait()
 
 
+def test_a_damaged_frame_is_refused_and_the_client_goes_on(sim: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    def damaged(message: memoryview) -> Frame:
+        return Frame(bytes(message[:-1]) + bytes([message[-1] ^ 1]))
+
+    with sim.stream(every=1, until="step=10") as stream, monkeypatch.context() as patch:
+        patch.setattr("headrace._stream.Frame", damaged)
+        with pytest.raises(headrace.ParseError, match="CRC"):
+            list(stream)
+    assert sim.wait().step == 10 and sim.status().streams == 0
+
+
 def test_a_stream_left_early_does_not_hold_the_run(sim: Any) -> None:
     with sim.stream(every=1, window=1, until="step=200") as stream:
         assert [frame.step for frame in itertools.islice(stream, 3)] == [0, 1, 2]

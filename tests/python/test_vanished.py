@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -123,6 +124,22 @@ def test_a_wait_tells_whether_there_is_something_to_read(drive: Any) -> None:
     finally:
         context.destroy(linger=0)
         os.close(pipe[0]), os.close(pipe[1])
+
+
+def test_threads_may_share_a_client(private: headrace.Simulation) -> None:
+    def work(number: int) -> int:
+        for _ in range(20):
+            private.params[("viscosity", "stiffness")[number % 2]] = float(number)
+        return int(private.status().particles)
+
+    with concurrent.futures.ThreadPoolExecutor(8) as pool:
+        assert list(pool.map(work, range(1, 9))) == [200] * 8
+
+
+def test_a_server_is_named_by_the_environment(private: headrace.Simulation, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HEADRACE_SERVER", private.endpoint)
+    with headrace.Simulation("default") as sim:
+        assert sim.session == private.session
 
 
 def test_a_cancelled_task_leaves_the_client_usable() -> None:

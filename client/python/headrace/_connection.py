@@ -125,7 +125,10 @@ class Connection:
 
     def call(self, method: str, params: Mapping[str, Any]) -> Steps[Any]:
         """A request on the control socket; returns its result, raises its error."""
-        channel = self._idle.pop() if self._idle else self.connect("control")
+        try:
+            channel = self._idle.pop()  # another thread may take the last one
+        except IndexError:
+            channel = self.connect("control")
         try:
             reply = yield from channel.reply(channel.send(method, params))
         except BaseException:

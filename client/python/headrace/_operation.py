@@ -60,33 +60,30 @@ class operation(Generic[P, T]):
         functools.update_wrapper(self, steps)
 
     @overload
-    def __get__(self, client: None, owner: type) -> operation[P, T]: ...
+    def __get__(self, client: None, owner: type) -> Callable[..., Any]: ...
     @overload
     def __get__(self, client: Blocking, owner: type) -> Callable[P, T]: ...
     @overload
     def __get__(self, client: Asynchronous, owner: type) -> Callable[P, Awaitable[T]]: ...
 
     def __get__(self, client: Any, owner: type) -> Any:
-        if client is None:
-            return self
-
         @functools.wraps(self.steps)
-        def bound(*args: P.args, **kwargs: P.kwargs) -> Any:
-            return client._carry_out(self.steps(client, *args, **kwargs))
+        def method(itself: Any, *args: P.args, **kwargs: P.kwargs) -> Any:
+            return itself._carry_out(self.steps(itself, *args, **kwargs))
 
-        signature = _outer_signature(self.steps, isinstance(client, Asynchronous))
-        bound.__signature__ = signature  # type: ignore[attr-defined]
-        return bound
+        signature = _outer_signature(self.steps, issubclass(owner, Asynchronous))
+        method.__signature__ = signature  # type: ignore[attr-defined]
+        return method if client is None else method.__get__(client, owner)
 
 
-class operation_property(Generic[T_co]):
+class operation_property(property, Generic[T_co]):
     """Marks a method without parameters as a property whose value is asked for (``sim.plan``, ``await sim.plan``)."""
 
     def __init__(self, steps: Callable[[Any], Steps[T_co]]) -> None:
-        self.steps = steps
-        self.__doc__ = steps.__doc__
+        super().__init__(lambda client: client._carry_out(steps(client)))
+        self.__doc__ = steps.__doc__  # what `property` keeps is hidden by the text of this class
 
-    @overload
+    @overload  # type: ignore[override]
     def __get__(self, client: None, owner: type) -> operation_property[T_co]: ...
     @overload
     def __get__(self, client: Blocking, owner: type) -> T_co: ...
@@ -94,13 +91,12 @@ class operation_property(Generic[T_co]):
     def __get__(self, client: Asynchronous, owner: type) -> Awaitable[T_co]: ...
 
     def __get__(self, client: Any, owner: type) -> Any:
-        return self if client is None else client._carry_out(self.steps(client))
+        return super().__get__(client, owner)
 
 
 @functools.cache
 def _outer_signature(steps: Callable[..., Any], is_awaited: bool) -> inspect.Signature:
-    """As a user sees it: without self, returning the T of `Steps[T]` or an awaitable of it."""
+    """As a user sees it: returning the T of `Steps[T]` or an awaitable of it."""
     inner = inspect.signature(steps)
     result = str(inner.return_annotation).removeprefix("Steps[").removesuffix("]")
-    return inner.replace(parameters=list(inner.parameters.values())[1:],
-                         return_annotation=f"Awaitable[{result}]" if is_awaited else result)
+    return inner.replace(return_annotation=f"Awaitable[{result}]" if is_awaited else result)
