@@ -13,7 +13,7 @@ import time
 from typing import Iterator
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "sinfo", "squeue")
-PATIENCE = 60.0  # [s] for the daemons to get ready; a loaded machine may be slow
+PATIENCE = 120.0  # [s] for each thing asked of the daemons; a loaded machine may be slow
 
 
 def why_not() -> str:

@@ -74,6 +74,28 @@ def test_a_stream_left_early_does_not_hold_the_run(sim: Any) -> None:
     assert sim.status().streams == 0
 
 
+@pytest.mark.parametrize("lossless", [True, False])
+def test_a_stream_that_a_loop_has_left_does_not_hold_the_run(sim: Any, lossless: bool) -> None:
+    options = {"window": 1, "stall_timeout": 3600} if lossless else {}
+    for frame in sim.stream(lossless=lossless, until="step=200", **options):
+        assert frame.step == 0
+        break
+    del frame
+    # Were the stream still open, the run would wait for its reader for an hour.
+    assert sim.wait(timeout=60).step == 200
+    while sim.status().streams > 0:  # nothing has waited for its end
+        pass
+
+
+def test_a_stream_whose_run_is_refused_is_not_left_open(sim: Any) -> None:
+    sim.run(wait=False)
+    with pytest.raises(headrace.WrongState):
+        list(sim.stream(every=1, until="step=200"))
+    sim.cancel()
+    assert "stream.closed" in [event.type for event in sim.events().events[-3:]]
+    assert sim.run(until="steps=100").steps == 100
+
+
 def test_a_stream_that_is_read_too_slowly_fails_where_that_was_asked_for(sim: Any) -> None:
     stream = sim.stream(every=1, window=1, on_stall="fail", until="step=50")
     with stream, pytest.raises(headrace.StreamNotFound):

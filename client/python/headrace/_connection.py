@@ -97,8 +97,9 @@ class Channel:
         """Sends a request and returns its result; a refusal is raised."""
         return result_of((yield from self.reply(self.send(method, params), on_frame)))
 
-    def close(self) -> None:
-        self.socket.close(0)
+    def close(self, linger: float = 0.0) -> None:
+        """`linger` [s]: that the socket may take, behind the scenes, to send what it was given."""
+        self.socket.close(round(1e3 * linger))
 
 
 class Connection:

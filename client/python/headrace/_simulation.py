@@ -334,7 +334,8 @@ class SimulationOperations(Group, Generic[StreamT, RecordingT]):
         fields, precision
             As for `snapshot`.
         every : int or float, optional
-            An int: steps between frames. A float: simulated time between frames [s]. By default every step.
+            Lossless only. An int: steps between frames. A float: simulated time between frames [s]. By default every
+            step.
         lossless : bool
             True: no frame is lost; the run waits for a slow reader. False: the newest frame each time; the run never
             waits.

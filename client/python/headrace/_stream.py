@@ -14,6 +14,7 @@ from ._operation import Steps, operation
 from .frame import Frame
 
 QUIET = 0.05  # [s] without a frame, after which it is asked whether the run has ended
+LAST_WORDS = 1.0  # [s] that a closed socket may take to send what it was given
 UNDER_WAY = ("running", "paused", "loading")
 
 
@@ -30,6 +31,7 @@ class LosslessSource:
         self._channel = self._connection.connect("data")
         opened = yield from self._channel.call("stream.open", {"mode": "lossless", **self._options}, self._keep)
         self._id: str = opened["stream"]
+        self._window: int = opened["window"]
 
     def read(self, seconds: float) -> Steps[Frame | None]:
         """The next frame; None when none comes in time."""
@@ -66,6 +68,14 @@ class LosslessSource:
         yield from self.finish()
         if not self.is_drained() or self._seq > self._acked:
             yield from self._channel.call("stream.ack", {"stream": self._id, "seq": self._last}, lambda part: None)
+
+    def abandon(self) -> None:
+        self._channel.send("stream.close", {"stream": self._id}, notify=True)
+        # The server drops the stream when its last frame is acknowledged. Which one that is could only be told by a reply:
+        # the numbers that it can have are few, and those that were not sent are refused without consequence.
+        for seq in range(self._acked + 1, self._acked + self._window + 1):
+            self._channel.send("stream.ack", {"stream": self._id, "seq": seq}, notify=True)
+        self._channel.close(LAST_WORDS)
 
     def close(self) -> None:
         self._channel.close()
@@ -116,6 +126,12 @@ class LiveSource:
     def is_drained(self) -> bool:
         return self._finished
 
+    def abandon(self) -> None:
+        self._channel.close()
+        control = self._connection.connect("control")
+        control.send("stream.close", {"stream": self._id}, notify=True)
+        control.close(LAST_WORDS)
+
     def close(self) -> None:
         self._channel.close()
 
@@ -142,7 +158,11 @@ class StreamOperations:
             yield from self._source.open()
             self._state = "open"
             if self._start is not None:
-                yield from self._start()
+                try:
+                    yield from self._start()
+                except BaseException:
+                    self._abandon()
+                    raise
 
     @operation
     def read(self) -> Steps[Frame | None]:
@@ -205,6 +225,19 @@ class StreamOperations:
                 pass  # the stream or its server is gone already
             finally:
                 self._source.close()
+
+    def _abandon(self) -> None:
+        """Ends the stream without waiting for anything, so that it does not hold the run up."""
+        before, self._state = self._state, "closed"
+        if before in ("open", "ending"):
+            try:
+                self._source.abandon()
+            except errors.Error:
+                pass  # the connection is closed
+
+    def __del__(self) -> None:
+        if hasattr(self, "_state"):
+            self._abandon()
 
 
 def fault_of(status: Mapping[str, Any]) -> errors.Faulted:
