@@ -98,7 +98,8 @@ except KeyboardInterrupt:
     print(sim.step(2).steps)
 """
     # A terminal's Ctrl-C goes to the whole process group of the program.
-    program = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, start_new_session=True)
+    program = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True,
+                               start_new_session=True)
     assert program.stdout is not None
     with headrace.Simulation(program.stdout.readline().strip()) as other:
         while other.status().state != "running":

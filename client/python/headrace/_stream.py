@@ -71,8 +71,8 @@ class LosslessSource:
 
     def abandon(self) -> None:
         self._channel.send("stream.close", {"stream": self._id}, notify=True)
-        # The server drops the stream when its last frame is acknowledged. Which one that is could only be told by a reply:
-        # the numbers that it can have are few, and those that were not sent are refused without consequence.
+        # The server drops the stream when its last frame is acknowledged. Which one that is only a reply could tell: the
+        # numbers that it can have are few, and those that were not sent are refused without consequence.
         for seq in range(self._acked + 1, self._acked + self._window + 1):
             self._channel.send("stream.ack", {"stream": self._id, "seq": seq}, notify=True)
         self._channel.close(LAST_WORDS)
