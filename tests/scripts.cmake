@@ -79,6 +79,7 @@ headrace_script_test("install: the programs work from where they are installed" 
 
 headrace_script_test("install: manual pages are right and whole" script support/check_man.sh $<TARGET_FILE:headrace>
                      $<TARGET_FILE:headraced>)
+include(${CMAKE_CURRENT_SOURCE_DIR}/python/tests.cmake)
 
 # The main job, with the programs of this build.
 headrace_script_test("demo: dam break from load to pictures" demo support/check_demo.sh ${PROJECT_BINARY_DIR} ${root}
