@@ -11,9 +11,10 @@ namespace headrace::client {
 namespace {
 
 struct ConvertWords {
-    std::string file, formats, out, field{"velocity"}, range, size;
+    std::string file, formats, out, color_by{"velocity"}, range, size, fields, region;
     std::optional<double> from, to;
     std::size_t every{1};
+    int jobs{0};
     std::optional<int> sheet;
     bool sheet_only{false}, probes{false};
 };
@@ -24,16 +25,35 @@ proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
     options.folder = words.out;
     if (!words.formats.empty()) options.formats = split(words.formats, ',');
     if (options.formats.empty() && !words.probes)
-        return usage_error("nothing to convert to", "--format", "give --format vtp, csv or png, or --probes");
+        return usage_error("nothing to convert to", "--format",
+                           "give a --format (headrace convert --help lists them), or --probes");
     options.probes = words.probes;
     options.every = words.every;
     options.from = words.from;
     options.to = words.to;
-    const auto field = proto::find_field(words.field);
+    options.jobs = words.jobs;
+    if (words.from && words.to && *words.from > *words.to)
+        return usage_error("the range ends before it begins", "--to", "give --from the smaller time");
+    if (!words.fields.empty()) {
+        auto fields = parse_fields(words.fields);
+        if (!fields) return fields.error();
+        options.fields = *fields;
+    }
+    if (!words.region.empty()) {
+        auto region = parse_box(words.region, "--region");
+        if (!region) return region.error();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (region->min[axis] > region->max[axis])
+                return usage_error("the second corner must not be below the first", "--region",
+                                   "x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1, ascending");
+        options.region = *region;
+    }
+    const auto field = proto::find_field(words.color_by);
     if (!field) {
         std::vector<std::string> known;
         for (const proto::FieldInfo& info : proto::kFields) known.emplace_back(info.name);
-        return usage_error("there is no field \"" + words.field + "\"", "--field", proto::suggest(words.field, known));
+        return usage_error("there is no field \"" + words.color_by + "\"", "--color-by",
+                           proto::suggest(words.color_by, known));
     }
     options.picture.color_field = *field;
     if (!words.range.empty()) {
@@ -124,13 +144,20 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
     CLI::App* converter = add_command(app, line, "convert", "turn a recording into files for other programs",
                                       [words](const Globals& globals) { return convert_file(globals, *words); });
     converter->add_option("FILE", words->file, "a recording, .mcap")->required();
-    converter->add_option("--format", words->formats, "vtp, csv, png; several with commas");
+    converter->add_option("--format", words->formats,
+                          "several with commas: vtp (ParaView), csv (one table per frame), csv-long (one for all), "
+                          "npz (NumPy), ply (point clouds), png");
     converter->add_option("--out", words->out, "folder of the results")->required();
     converter->add_flag("--probes", words->probes, "a CSV file with the samples of each probe");
     converter->add_option("--every", words->every, "each so many-th frame")->check(CLI::PositiveNumber);
     converter->add_option("--from", words->from, "first time [s]");
     converter->add_option("--to", words->to, "last time [s]");
-    converter->add_option("--field", words->field, "pictures: what the colours show")->capture_default_str();
+    converter->add_option("--fields", words->fields, "which of the recorded fields, with commas; pictures take theirs");
+    converter->add_option("--region", words->region, "only particles inside x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1 [m]");
+    converter->add_option("--jobs", words->jobs, "frames in work at a time; default: the cores")
+        ->check(CLI::Range(1, 1'024));
+    converter->add_option("--color-by,--field", words->color_by, "pictures: what the colours show")
+        ->capture_default_str();
     converter->add_option("--range", words->range, "pictures: ends of the colour scale, low:high");
     converter->add_option("--size", words->size, "pictures: WIDTHxHEIGHT in pixels");
     converter->add_option("--sheet", words->sheet, "pictures: how many on the contact sheet; 0: no sheet")

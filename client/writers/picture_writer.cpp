@@ -45,24 +45,28 @@ class PictureWriter final : public Writer {
         if (picture.sheet_frames > 0) make_small_renderer();
     }
 
-    proto::Status write(const proto::FrameView& frame, const std::vector<proto::ObjectDesc>& objects) override {
+    proto::Result<InOrder> prepare(const FrameTask& task) override {
+        const proto::FrameView& frame = task.frame;
         for (const proto::Field field : {proto::Field::position, options_.picture.color_field})
             if (frame.find(field) == nullptr) return missing(field);
-        const bool is_for_sheet = small_ && sheet_.wants(frames_);
+        const bool is_for_sheet = small_ && sheet_.wants(task.number);
+        std::optional<Image> cell;
         if (large_ || is_for_sheet) {
             const std::vector<Vec3> positions = particle_positions(frame);
             const std::vector<float> values = color_values(frame, options_.picture.color_field);
-            if (is_for_sheet)
-                sheet_.add(frames_, small_->draw(positions, values, objects), time_label(frame.info.time));
+            if (is_for_sheet) cell = small_->draw(positions, values, task.objects);
             if (large_) {
-                Image image = large_->draw(positions, values, objects);
+                Image image = large_->draw(positions, values, task.objects);
                 annotate(image, frame.info);
-                const std::string name = numbered_name(options_.stem, frames_, "png");
-                if (auto done = write_png(options_.folder / name, image); !done) return done;
+                const std::string name = numbered_name(options_.stem, task.number, "png");
+                if (auto done = write_png(options_.folder / name, image); !done) return done.error();
             }
         }
-        ++frames_;
-        return proto::Done{};
+        return InOrder([this, number = task.number, cell = std::move(cell), label = time_label(frame.info.time)] {
+            if (cell) sheet_.add(number, *cell, label);
+            ++frames_;
+            return proto::Status(proto::Done{});
+        });
     }
 
     proto::Status finish() override {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,23 +30,45 @@ struct WriterOptions {
     std::filesystem::path folder;  // created when missing
     std::string stem;              // files are <stem>_000123.vtp and the like
     proto::SceneDesc scene;
-    std::size_t expected_frames{0};  // 0: not known; spreads the contact sheet
+    std::size_t expected_frames{0};  // 0: not known, and frames come one after the other; spreads the contact sheet
     PictureOptions picture;
 };
 
-// Owner: one thread. Frames come in ascending time. After an error the writer only wants to be destroyed; files of the
-// frames before it are whole.
-class Writer {
-  public:
-    virtual ~Writer() = default;
-
-    // `objects`: those of this frame, after events and commands. The frame's bytes are not kept.
-    virtual proto::Status write(const proto::FrameView& frame, const std::vector<proto::ObjectDesc>& objects) = 0;
-    virtual proto::Status finish() = 0;       // index files; call once, after the last frame
-    virtual std::string summary() const = 0;  // for a person: what was written and how to open it
+// One frame of a conversion.
+struct FrameTask {
+    const proto::FrameView& frame;
+    std::size_t number{};                           // among the frames converted, from 0
+    const std::vector<proto::ObjectDesc>& objects;  // of this frame, after events and commands
 };
 
-std::vector<std::string> writer_formats();  // "vtp", "csv", "png"
+// After an error the writer only wants to be destroyed; files of the frames before it are whole.
+class Writer {
+  public:
+    // What is left to do with a frame when all frames before it are done with.
+    using InOrder = std::function<proto::Status()>;
+
+    virtual ~Writer() = default;
+
+    // The work on one frame. On any thread, several frames at a time and in any order; what it returns is called on one
+    // thread, in ascending order of the frames. Neither bytes nor objects are kept.
+    virtual proto::Result<InOrder> prepare(const FrameTask& task) = 0;
+    virtual proto::Status finish() = 0;       // index files; call once, after the last frame
+    virtual std::string summary() const = 0;  // for a person: what was written and how to open it
+
+    // The same for frames that come one after the other.
+    proto::Status write(const proto::FrameView& frame, const std::vector<proto::ObjectDesc>& objects);
+
+  private:
+    std::size_t written_{0};  // by write()
+};
+
+struct FormatInfo {
+    std::string_view name;
+    proto::FieldSet needs;  // pictures besides: the field that the colours show
+    bool is_picture;        // draws what it needs; other formats store all fields that are chosen
+};
+
+std::vector<FormatInfo> writer_formats();
 
 // Errors: invalid_params for an unknown format or unusable options, file_error when the folder cannot be made.
 proto::Result<std::unique_ptr<Writer>> make_writer(std::string_view format, const WriterOptions& options);
