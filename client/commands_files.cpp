@@ -11,13 +11,43 @@ namespace headrace::client {
 namespace {
 
 struct ConvertWords {
-    std::string file, formats, out, color_by{"velocity"}, range, size, fields, region;
+    std::string file, formats, out, color_by{"velocity"}, range, size, fields, region, palette{"viridis"},
+        view{"standard"}, camera, target, up;
+    double fps{30};
     std::optional<double> from, to;
     std::size_t every{1};
     int jobs{0};
     std::optional<int> sheet;
     bool sheet_only{false}, probes{false};
 };
+
+// The place of a word among names.
+template <std::size_t n>
+proto::Result<std::size_t> find_name(const std::array<std::string_view, n>& names, const std::string& word,
+                                     const std::string& option) {
+    for (std::size_t k = 0; k < n; ++k)
+        if (names[k] == word) return k;
+    return usage_error("there is no \"" + word + "\"", option, proto::suggest(word, {names.begin(), names.end()}));
+}
+
+proto::Status take_view(const ConvertWords& words, PictureOptions& picture) {
+    auto palette = find_name(kPaletteNames, words.palette, "--palette");
+    if (!palette) return palette.error();
+    picture.palette = static_cast<Palette>(*palette);
+    auto view = find_name(kViewNames, words.view, "--view");
+    if (!view) return view.error();
+    picture.view.name = static_cast<ViewName>(*view);
+    const auto take = [](const std::string& word, const char* option, std::optional<proto::Vec3>& into) {
+        if (word.empty()) return proto::Status(proto::Done{});
+        auto vector = parse_vector(word, option);
+        if (!vector) return proto::Status(vector.error());
+        into = *vector;
+        return proto::Status(proto::Done{});
+    };
+    if (auto taken = take(words.camera, "--camera", picture.view.position); !taken) return taken;
+    if (auto taken = take(words.target, "--target", picture.view.target); !taken) return taken;
+    return take(words.up, "--up", picture.view.up);
+}
 
 proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
     ConvertOptions options;
@@ -68,6 +98,8 @@ proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
         options.picture.width = size->first;
         options.picture.height = size->second;
     }
+    if (auto seen = take_view(words, options.picture); !seen) return seen.error();
+    options.picture.fps = words.fps;
     if (words.sheet) options.picture.sheet_frames = *words.sheet;
     options.picture.every_frame = !words.sheet_only;
     return options;
@@ -146,7 +178,7 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
     converter->add_option("FILE", words->file, "a recording, .mcap")->required();
     converter->add_option("--format", words->formats,
                           "several with commas: vtp (ParaView), csv (one table per frame), csv-long (one for all), "
-                          "npz (NumPy), ply (point clouds), png");
+                          "npz (NumPy), ply (point clouds), png, mp4 (a film, by ffmpeg), pov (POV-Ray)");
     converter->add_option("--out", words->out, "folder of the results")->required();
     converter->add_flag("--probes", words->probes, "a CSV file with the samples of each probe");
     converter->add_option("--every", words->every, "each so many-th frame")->check(CLI::PositiveNumber);
@@ -158,6 +190,14 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
         ->check(CLI::Range(1, 1'024));
     converter->add_option("--color-by,--field", words->color_by, "pictures: what the colours show")
         ->capture_default_str();
+    converter->add_option("--palette", words->palette, "pictures: viridis, cividis, magma, coolwarm")
+        ->capture_default_str();
+    converter->add_option("--view", words->view, "pictures in 3D: standard, front, side, top, iso")
+        ->capture_default_str();
+    converter->add_option("--camera", words->camera, "pictures in 3D: the eye's place x,y,z [m] instead of a view");
+    converter->add_option("--target", words->target, "the point x,y,z that the eye looks at [m]; default: the middle");
+    converter->add_option("--up", words->up, "upwards for the eye, x,y,z; default: against gravity");
+    converter->add_option("--fps", words->fps, "films: frames a second")->capture_default_str();
     converter->add_option("--range", words->range, "pictures: ends of the colour scale, low:high");
     converter->add_option("--size", words->size, "pictures: WIDTHxHEIGHT in pixels");
     converter->add_option("--sheet", words->sheet, "pictures: how many on the contact sheet; 0: no sheet")

@@ -85,19 +85,19 @@ std::optional<std::string> endpoint_in_ready_line(const std::string& line) {
     return control->get<std::string>();
 }
 
-proto::Result<std::unique_ptr<PrivateServer>> PrivateServer::start(int threads) {
+proto::Result<std::unique_ptr<PrivateServer>> PrivateServer::start(int threads, const fs::path& data_folder) {
     const auto binary = find_server_binary();
     if (!binary) return failed("headraced is not installed beside headrace", "set HEADRACE_SERVER_BINARY to its path");
     auto folder = make_private_folder();
     if (!folder) return folder.error();
     std::unique_ptr<PrivateServer> server(new PrivateServer);
     server->folder_ = *folder;
-    if (auto spawned = server->spawn(*binary, threads); !spawned) return spawned.error();
+    if (auto spawned = server->spawn(*binary, threads, data_folder); !spawned) return spawned.error();
     if (auto ready = server->wait_until_ready(); !ready) return ready.error();
     return server;
 }
 
-proto::Status PrivateServer::spawn(const fs::path& binary, int threads) {
+proto::Status PrivateServer::spawn(const fs::path& binary, int threads, const fs::path& data_folder) {
     int in[2], out[2];
     if (!make_pipe(in)) return failed(std::strerror(errno));
     if (!make_pipe(out)) {
@@ -105,9 +105,13 @@ proto::Status PrivateServer::spawn(const fs::path& binary, int threads) {
         return failed(std::strerror(errno));
     }
     const std::string log = folder_ / "log";
-    std::vector<std::string> words{
-        binary.string(),      "--bind", "ipc://" + (folder_ / "s").string(), "--data", folder_.string(), "--json",
-        "--quit-on-stdin-eof"};
+    std::vector<std::string> words{binary.string(),
+                                   "--bind",
+                                   "ipc://" + (folder_ / "s").string(),
+                                   "--data",
+                                   (data_folder.empty() ? folder_ : data_folder).string(),
+                                   "--json",
+                                   "--quit-on-stdin-eof"};
     if (threads > 0) words.insert(words.end(), {"--threads", std::to_string(threads)});
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());

@@ -13,7 +13,7 @@ usage: tests/run.sh [--full] [--preset NAME] [--label LABEL] [ctest arguments]
 Installs missing packages, builds, and runs the tests with ctest. Tests whose tools are not installed are reported as
 skipped.
 
-  --full          installs those tools too (VTK, jsonschema, clang-format, valgrind, Node.js and its packages); then a
+  --full          installs those tools too (VTK, jsonschema, clang-format, valgrind, POV-Ray, Node.js and its packages); then a
                   skipped test is a failure, unless it lacks the reference data of the validation
   --preset NAME   release (default), debug, asan or tsan: see CMakePresets.json
   --label LABEL   only tests with this label: unit, stability, protocol, validation, cli, script, demo
@@ -51,8 +51,8 @@ case "$preset" in
     *) die "no preset '$preset'" "release, debug, asan or tsan" ;;
 esac
 
-packages=("${headrace_build_packages[@]}" catch2 python3 python3-zmq python3-numpy)
-[ $full = no ] || packages+=(python3-vtk9 python3-jsonschema clang-format valgrind=valgrind nodejs=node npm=npm)
+packages=("${headrace_build_packages[@]}" catch2 python3 python3-zmq python3-numpy ffmpeg=ffmpeg)
+[ $full = no ] || packages+=(python3-vtk9 python3-jsonschema clang-format valgrind=valgrind povray=povray nodejs=node npm=npm)
 install_packages "${packages[@]}"
 
 # The MCAP reader of another project judges our recordings.

@@ -60,7 +60,7 @@ void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, d
     for (int y = 0; y < box.height; ++y) {
         const double t = box.height > 1 ? 1 - static_cast<double>(y) / (box.height - 1) : 0;
         std::uint32_t* row = image.row(box.top + y) + box.left;
-        std::fill_n(row, box.width, Image::packed(palette_color(t)));
+        std::fill_n(row, box.width, Image::packed(palette_color(t, colors.palette)));
     }
 
     const Canvas canvas(image);

@@ -13,23 +13,18 @@ namespace {
 
 constexpr std::size_t kShades = 1024;  // finer than 8 bits a channel can show
 
-Camera make_camera(const proto::SceneDesc& scene, const Viewport& viewport) {
-    const std::vector<Vec3> outline = visible_outline(scene);
-    return scene.dimensions == 2 ? Camera::orthographic(outline, up_axis(scene), viewport)
-                                 : Camera::perspective(outline, up_axis(scene), viewport);
-}
-
 }  // namespace
 
 SceneRenderer::SceneRenderer(const proto::SceneDesc& scene, const ColorScale& colors, int width, int height,
-                             const Viewport& viewport)
+                             const Viewport& viewport, const ViewOptions& view)
     : dimensions_(scene.dimensions),
       radius_(particle_radius(scene)),
       colors_(colors),
       width_(width),
       height_(height),
-      camera_(make_camera(scene, viewport)) {
-    for (std::size_t k = 0; k < kShades; ++k) palette_.push_back(palette_color(static_cast<double>(k) / (kShades - 1)));
+      camera_(make_camera(scene, view, viewport)) {
+    for (std::size_t k = 0; k < kShades; ++k)
+        palette_.push_back(palette_color(static_cast<double>(k) / (kShades - 1), colors.palette));
 }
 
 Raster SceneRenderer::borrow_raster() const {

@@ -17,7 +17,7 @@ inline constexpr Rgb kPaper{0xFF, 0xFF, 0xFF};  // background of all pictures
 class SceneRenderer {
   public:
     SceneRenderer(const proto::SceneDesc& scene, const ColorScale& colors, int width, int height,
-                  const Viewport& viewport);
+                  const Viewport& viewport, const ViewOptions& view = {});
 
     // One value per position: its colour on the scale.
     Image draw(std::span<const Vec3> positions, std::span<const float> values,

@@ -20,13 +20,15 @@ struct Format {
 };
 
 using proto::Field;
-constexpr std::array<Format, 6> kFormats{{
+constexpr std::array<Format, 8> kFormats{{
     {{"vtp", {Field::position}, false}, make_vtp_writer},
     {{"csv", {}, false}, make_csv_writer},
     {{"csv-long", {Field::id}, false}, make_long_csv_writer},
     {{"npz", {}, false}, make_npz_writer},
     {{"ply", {Field::position}, false}, make_ply_writer},
     {{"png", {Field::position}, true}, make_picture_writer},
+    {{"mp4", {Field::position}, true}, make_mp4_writer},
+    {{"pov", {Field::position}, true}, make_pov_writer},
 }};
 
 proto::Status check_picture(const PictureOptions& picture) {
@@ -39,6 +41,8 @@ proto::Status check_picture(const PictureOptions& picture) {
     for (const auto& end : {picture.color_min, picture.color_max})
         if (end && !std::isfinite(*end))
             return Error{ErrorCode::invalid_params, "the ends of the colour scale must be finite", "picture", ""};
+    if (!(picture.fps >= 1 && picture.fps <= 240))
+        return Error{ErrorCode::invalid_params, "films have 1 to 240 pictures a second", "picture.fps", ""};
     if (picture.color_min && picture.color_max && !(*picture.color_min < *picture.color_max))
         return Error{ErrorCode::invalid_params, "the colour scale must ascend", "picture.color_min", ""};
     return proto::Done{};
@@ -70,6 +74,10 @@ proto::Result<std::unique_ptr<Writer>> make_writer(std::string_view format, cons
     if (options.stem.empty() || options.stem.find('/') != std::string::npos)
         return Error{ErrorCode::invalid_params, "file names need a stem without slashes", "stem", ""};
     if (const proto::Status checked = check_picture(options.picture); !checked) return checked.error();
+
+    if (format == "mp4" && !has_ffmpeg())
+        return Error{ErrorCode::file_error, "films need ffmpeg, which is not installed", "format",
+                     "apt-get install ffmpeg, or choose the format png"};
 
     std::error_code failure;
     std::filesystem::create_directories(options.folder.empty() ? "." : options.folder, failure);

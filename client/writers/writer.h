@@ -1,6 +1,7 @@
 // Other programs' file formats, one per file behind one small interface.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -10,14 +11,28 @@
 #include <string_view>
 #include <vector>
 
+#include "client/writers/palette.h"
 #include "proto/frame.h"
 #include "proto/result.h"
 #include "proto/scene_desc.h"
 
 namespace headrace::client {
 
+enum class ViewName { standard, front, side, top, iso };
+inline constexpr std::array<std::string_view, 5> kViewNames{"standard", "front", "side", "top", "iso"};
+
+// From where a 3D scene is seen; always as large as it fits. 2D scenes are seen from the front.
+struct ViewOptions {
+    ViewName name{ViewName::standard};      // standard: from the front, a little from the right and above
+    std::optional<proto::Vec3> position;    // [m] of the eye, instead of the name
+    std::optional<proto::Vec3> target, up;  // looked at, upwards; absent: the middle, against gravity
+};
+
 // How pictures look; other formats ignore it.
 struct PictureOptions {
+    Palette palette{Palette::viridis};
+    ViewOptions view;
+    double fps{30};                                    // films: pictures a second
     proto::Field color_field{proto::Field::velocity};  // vectors: their magnitude
     // Ends of the colour scale, in the field's unit. Absent: guessed once from the scene, the same for all frames.
     std::optional<double> color_min, color_max;
