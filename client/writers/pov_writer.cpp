@@ -59,12 +59,25 @@ struct Geometry {
     }
 };
 
+// The edges of a box as thin rods: glass alone can hardly be seen.
+std::string edges_text(const proto::BoxDesc& box, double radius) {
+    std::string text;
+    for (int from = 0; from < 8; ++from)
+        for (const int axis : {1, 2, 4}) {
+            if ((from & axis) != 0 || box_corner(box, from) == box_corner(box, from | axis)) continue;
+            text += "cylinder { " + vector(box_corner(box, from)) + ", " + vector(box_corner(box, from | axis)) + ", " +
+                    number(radius) + " texture { Edge } no_shadow }\n";
+        }
+    return text;
+}
+
 class PovWriter final : public Writer {
   public:
     explicit PovWriter(const WriterOptions& options)
         : options_(options),
           colors_(make_color_scale(options.scene, options.picture)),
           radius_(particle_radius(options.scene)),
+          size_(length(visible_bounds(options.scene).max - visible_bounds(options.scene).min)),
           head_(make_head()) {}
 
     proto::Result<InOrder> prepare(const FrameTask& task) override {
@@ -120,6 +133,7 @@ class PovWriter final : public Writer {
             text += "// " + object.name + "\n" +
                     std::visit(geometry, static_cast<const proto::ShapeDesc::variant&>(shape)) +
                     (is_container ? " hollow material { Glass } no_shadow }\n" : " texture { Solid } }\n");
+            if (box != nullptr && is_container) text += edges_text(*box, 0.12 * radius_ + 0.001 * size_);
         }
         return text;
     }
@@ -132,8 +146,7 @@ class PovWriter final : public Writer {
         const Camera camera = make_camera(options_.scene, picture.view, {0, 0, 1, 1});
         const proto::BoxDesc bounds = visible_bounds(options_.scene);
         const Vec3 target = picture.view.target.value_or(0.5 * (bounds.min + bounds.max));
-        const double size = length(bounds.max - bounds.min);
-        const Vec3 eye = camera.is_perspective() ? camera.eye() : target + (2 * size) * camera.backward();
+        const Vec3 eye = camera.is_perspective() ? camera.eye() : target + (2 * size_) * camera.backward();
 
         // Half the picture's width, at distance 1 in perspective: all of the outline, and a margin.
         double half_width = 0;
@@ -152,15 +165,17 @@ class PovWriter final : public Writer {
                 std::string(camera.is_perspective() ? "perspective" : "orthographic") + "\n  location " + vector(eye) +
                 "\n  right " + vector(right) + "\n  up " + vector(up) + "\n  direction " +
                 vector(-pull * camera.backward()) + "\n}\n";
-        const Vec3 light = target + size * (2.5 * camera.up() + 2.5 * camera.backward() + -1.5 * camera.right());
-        text += "light_source { " + vector(light) + " rgb 0.85 area_light " + vector((0.6 * size) * camera.right()) +
-                ", " + vector((0.6 * size) * camera.up()) + ", 3, 3 adaptive 1 jitter }\n";
+        const Vec3 light = target + size_ * (2.5 * camera.up() + 2.5 * camera.backward() + -1.5 * camera.right());
+        text += "light_source { " + vector(light) + " rgb 0.85 area_light " + vector((0.6 * size_) * camera.right()) +
+                ", " + vector((0.6 * size_) * camera.up()) + ", 3, 3 adaptive 1 jitter }\n";
         text += "light_source { " + vector(eye) + " rgb 0.25 shadowless }\n";
         text +=
-            "#declare Glass = material { texture { pigment { rgbt <0.93, 0.96, 0.98, 0.93> } finish { ambient 0 "
+            "#declare Glass = material { texture { pigment { rgbt <0.72, 0.80, 0.88, 0.90> } finish { ambient 0 "
             "diffuse "
             "0.05 specular 0.4 roughness 0.005 reflection { 0.01, 0.12 } } } interior { ior 1.0 } }\n"
-            "#declare Solid = texture { pigment { srgb <0.85, 0.55, 0.37> } finish { ambient 0.15 diffuse 0.7 specular "
+            "#declare Edge = texture { pigment { srgb <0.29, 0.36, 0.42> } finish { ambient 0.4 diffuse 0.5 } }\n"
+            "#declare Solid = texture { pigment { srgbt <0.85, 0.55, 0.37, 0.45> } finish { ambient 0.15 diffuse 0.7 "
+            "specular "
             "0.15 } }\n";
         // Staubach 2010, Eq. 3.5: cbrt(3 m / (4 pi rho0)); in 2D the disc of the particle's area.
         text += "#declare R = " + number(radius_) + ";\n#declare T = array[" + std::to_string(kShades + 1) + "];\n";
@@ -177,6 +192,7 @@ class PovWriter final : public Writer {
     WriterOptions options_;
     ColorScale colors_;
     double radius_;  // [m] of a particle
+    double size_;    // [m] of what is to be seen, from corner to corner
     std::string head_;
     std::size_t frames_{0};
 };
