@@ -68,6 +68,9 @@ void FramePicture::annotate(Image& image, const proto::FrameInfo& info) const {
     draw_text(image, columns[0] * scale, 62 * scale, 16 * scale, time_label(info.time));
     draw_text(image, columns[1] * scale, 62 * scale, 16 * scale, "step " + grouped(info.step));
     draw_text(image, columns[2] * scale, 62 * scale, 16 * scale, grouped(info.particle_count) + " particles");
+    const Camera& camera = renderer_.camera();
+    if (!camera.is_perspective())
+        draw_scale_bar(image, 28 * scale, image.height - 14 * scale, camera.pixels_per_metre(0), scale);
     draw_color_bar(image, bar_box(image.height, image.width - static_cast<int>(12 * scale), scale), colors_, scale);
 }
 

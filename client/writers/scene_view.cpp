@@ -136,6 +136,25 @@ std::vector<Vec3> visible_outline(const SceneDesc& scene) {
     return points;
 }
 
+proto::Status check_view(const SceneDesc& scene, const ViewOptions& view) {
+    if (!view.position || scene.dimensions == 2) return proto::Done{};
+    const BoxDesc bounds = visible_bounds(scene);
+    const Vec3 backward = *view.position - view.target.value_or(0.5 * (bounds.min + bounds.max));
+    const double slack = 1e-6 * length(bounds.max - bounds.min);
+    if (!(length(backward) > slack))
+        return proto::Error{proto::ErrorCode::invalid_params, "the eye is where it looks at", "--camera",
+                            "give --camera and --target two places"};
+    const Vec3 up = view.up.value_or(up_axis(scene));
+    if (!(length(cross(up, backward)) > 1e-6 * length(up) * length(backward)))
+        return proto::Error{proto::ErrorCode::invalid_params, "the eye looks along the direction upwards", "--up",
+                            "give another direction"};
+    for (const Vec3& point : visible_outline(scene))
+        if (!(dot(*view.position - point, normalized(backward)) > slack))
+            return proto::Error{proto::ErrorCode::invalid_params, "a part of the scene is behind the eye", "--camera",
+                                "move it away from the scene, which reaches from scene.domain's min to max at most"};
+    return proto::Done{};
+}
+
 Camera make_camera(const SceneDesc& scene, const ViewOptions& view, const Viewport& viewport) {
     const std::vector<Vec3> outline = visible_outline(scene);
     const Vec3 up = up_axis(scene);

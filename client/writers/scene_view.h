@@ -27,7 +27,10 @@ proto::BoxDesc visible_bounds(const proto::SceneDesc& scene);
 // Points around all that is visible: corners of boxes, surfaces of spheres.
 std::vector<Vec3> visible_outline(const proto::SceneDesc& scene);
 
-// Sees all that is visible, from where the options say.
+// Errors: invalid_params for an eye that cannot see all that is visible, or does not know where up is.
+proto::Status check_view(const proto::SceneDesc& scene, const ViewOptions& view);
+
+// Precondition: check_view. Sees all that is visible, from where the options say.
 Camera make_camera(const proto::SceneDesc& scene, const ViewOptions& view, const Viewport& viewport);
 
 // The part of an object's box that is inside the containers: a panel may reach through walls, which cannot matter.

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "client/writers/formats.h"
+#include "client/writers/scene_view.h"
 #include "proto/suggest.h"
 
 namespace headrace::client {
@@ -75,6 +76,9 @@ proto::Result<std::unique_ptr<Writer>> make_writer(std::string_view format, cons
         return Error{ErrorCode::invalid_params, "file names need a stem without slashes", "stem", ""};
     if (const proto::Status checked = check_picture(options.picture); !checked) return checked.error();
 
+    if (found->info.is_picture)
+        if (const proto::Status checked = check_view(options.scene, options.picture.view); !checked)
+            return checked.error();
     if (format == "mp4" && !has_ffmpeg())
         return Error{ErrorCode::file_error, "films need ffmpeg, which is not installed", "format",
                      "apt-get install ffmpeg, or choose the format png"};

@@ -16,6 +16,11 @@ PATH=empty expect 6 'error file_error \(format\): films need ffmpeg, .*apt-get i
 expect 2 'error usage \(--palette\): did you mean "cividis"\?' convert --format png --out none --palette cividi
 expect 2 'error usage \(--view\): .*' convert --format png --out none --view below
 
+expect 2 'error invalid_params \(--camera\): a part of the scene is behind the eye; .*' \
+    convert --format png --out none --camera 0.5,0.4,0.2 --target 0,0,0
+expect 2 'error invalid_params \(--up\): .*' convert --format png --out none --camera 0.5,5,0.2 --target 0.5,0,0.2
+[ ! -e none ] || fail "a refused picture left $(ls none)"
+
 skipped=
 if command -v ffprobe >/dev/null 2>&1; then
     # An odd size is padded to an even one.
