@@ -17,7 +17,7 @@ double text_scale(const PictureOptions& picture) {
 
 Viewport scene_viewport(const PictureOptions& picture) {
     const double scale = text_scale(picture);
-    const double left = 28 * scale, top = 78 * scale, right = 150 * scale, bottom = 30 * scale;
+    const double left = 28 * scale, top = 78 * scale, right = 150 * scale, bottom = 48 * scale;
     return {left, top, picture.width - left - right, picture.height - top - bottom};
 }
 
