@@ -179,13 +179,13 @@ proto::Result<Removal> parse_removal(std::string_view word) {
                        "write NAME@at-rest or NAME@TIME, such as panel@1.5");
 }
 
-proto::Result<proto::BoxDesc> parse_box(std::string_view word) {
-    auto numbers = parse_numbers(word, "--box");
+proto::Result<proto::BoxDesc> parse_box(std::string_view word, const std::string& option) {
+    auto numbers = parse_numbers(word, option);
     if (!numbers) return numbers.error();
     const std::vector<double>& n = *numbers;
     if (n.size() == 4) return proto::BoxDesc{{n[0], n[1], 0}, {n[2], n[3], 0}};
     if (n.size() == 6) return proto::BoxDesc{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
-    return usage_error("a box has 4 numbers (2D) or 6 (3D)", "--box", "x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1");
+    return usage_error("a box has 4 numbers (2D) or 6 (3D)", option, "x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1");
 }
 
 proto::Result<proto::SphereDesc> parse_sphere(std::string_view word) {

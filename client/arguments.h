@@ -49,7 +49,7 @@ struct Removal {
 proto::Result<Removal> parse_removal(std::string_view word);
 
 // "x0,y0,x1,y1" in 2D, "x0,y0,z0,x1,y1,z1" in 3D.
-proto::Result<proto::BoxDesc> parse_box(std::string_view word);
+proto::Result<proto::BoxDesc> parse_box(std::string_view word, const std::string& option = "--box");
 // "x,y,r" in 2D, "x,y,z,r" in 3D.
 proto::Result<proto::SphereDesc> parse_sphere(std::string_view word);
 // "x0,y0,z0,x1,y1,z1,r"

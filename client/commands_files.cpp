@@ -11,12 +11,43 @@ namespace headrace::client {
 namespace {
 
 struct ConvertWords {
-    std::string file, formats, out, field{"velocity"}, range, size;
+    std::string file, formats, out, color_by{"velocity"}, range, size, fields, region, palette{"viridis"},
+        view{"standard"}, camera, target, up;
+    double fps{30};
     std::optional<double> from, to;
     std::size_t every{1};
+    int jobs{0};
     std::optional<int> sheet;
     bool sheet_only{false}, probes{false};
 };
+
+// The place of a word among names.
+template <std::size_t n>
+proto::Result<std::size_t> find_name(const std::array<std::string_view, n>& names, const std::string& word,
+                                     const std::string& option) {
+    for (std::size_t k = 0; k < n; ++k)
+        if (names[k] == word) return k;
+    return usage_error("there is no \"" + word + "\"", option, proto::suggest(word, {names.begin(), names.end()}));
+}
+
+proto::Status take_view(const ConvertWords& words, PictureOptions& picture) {
+    auto palette = find_name(kPaletteNames, words.palette, "--palette");
+    if (!palette) return palette.error();
+    picture.palette = static_cast<Palette>(*palette);
+    auto view = find_name(kViewNames, words.view, "--view");
+    if (!view) return view.error();
+    picture.view.name = static_cast<ViewName>(*view);
+    const auto take = [](const std::string& word, const char* option, std::optional<proto::Vec3>& into) {
+        if (word.empty()) return proto::Status(proto::Done{});
+        auto vector = parse_vector(word, option);
+        if (!vector) return proto::Status(vector.error());
+        into = *vector;
+        return proto::Status(proto::Done{});
+    };
+    if (auto taken = take(words.camera, "--camera", picture.view.position); !taken) return taken;
+    if (auto taken = take(words.target, "--target", picture.view.target); !taken) return taken;
+    return take(words.up, "--up", picture.view.up);
+}
 
 proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
     ConvertOptions options;
@@ -24,16 +55,35 @@ proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
     options.folder = words.out;
     if (!words.formats.empty()) options.formats = split(words.formats, ',');
     if (options.formats.empty() && !words.probes)
-        return usage_error("nothing to convert to", "--format", "give --format vtp, csv or png, or --probes");
+        return usage_error("nothing to convert to", "--format",
+                           "give a --format (headrace convert --help lists them), or --probes");
     options.probes = words.probes;
     options.every = words.every;
     options.from = words.from;
     options.to = words.to;
-    const auto field = proto::find_field(words.field);
+    options.jobs = words.jobs;
+    if (words.from && words.to && *words.from > *words.to)
+        return usage_error("the range ends before it begins", "--to", "give --from the smaller time");
+    if (!words.fields.empty()) {
+        auto fields = parse_fields(words.fields);
+        if (!fields) return fields.error();
+        options.fields = *fields;
+    }
+    if (!words.region.empty()) {
+        auto region = parse_box(words.region, "--region");
+        if (!region) return region.error();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (region->min[axis] > region->max[axis])
+                return usage_error("the second corner must not be below the first", "--region",
+                                   "x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1, ascending");
+        options.region = *region;
+    }
+    const auto field = proto::find_field(words.color_by);
     if (!field) {
         std::vector<std::string> known;
         for (const proto::FieldInfo& info : proto::kFields) known.emplace_back(info.name);
-        return usage_error("there is no field \"" + words.field + "\"", "--field", proto::suggest(words.field, known));
+        return usage_error("there is no field \"" + words.color_by + "\"", "--color-by",
+                           proto::suggest(words.color_by, known));
     }
     options.picture.color_field = *field;
     if (!words.range.empty()) {
@@ -48,6 +98,8 @@ proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
         options.picture.width = size->first;
         options.picture.height = size->second;
     }
+    if (auto seen = take_view(words, options.picture); !seen) return seen.error();
+    options.picture.fps = words.fps;
     if (words.sheet) options.picture.sheet_frames = *words.sheet;
     options.picture.every_frame = !words.sheet_only;
     return options;
@@ -124,13 +176,28 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
     CLI::App* converter = add_command(app, line, "convert", "turn a recording into files for other programs",
                                       [words](const Globals& globals) { return convert_file(globals, *words); });
     converter->add_option("FILE", words->file, "a recording, .mcap")->required();
-    converter->add_option("--format", words->formats, "vtp, csv, png; several with commas");
+    converter->add_option("--format", words->formats,
+                          "several with commas: vtp (ParaView), csv (one table per frame), csv-long (one for all), "
+                          "npz (NumPy), ply (point clouds), png, mp4 (a film, by ffmpeg), pov (POV-Ray)");
     converter->add_option("--out", words->out, "folder of the results")->required();
     converter->add_flag("--probes", words->probes, "a CSV file with the samples of each probe");
     converter->add_option("--every", words->every, "each so many-th frame")->check(CLI::PositiveNumber);
     converter->add_option("--from", words->from, "first time [s]");
     converter->add_option("--to", words->to, "last time [s]");
-    converter->add_option("--field", words->field, "pictures: what the colours show")->capture_default_str();
+    converter->add_option("--fields", words->fields, "which of the recorded fields, with commas; pictures take theirs");
+    converter->add_option("--region", words->region, "only particles inside x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1 [m]");
+    converter->add_option("--jobs", words->jobs, "frames in work at a time; default: the cores")
+        ->check(CLI::Range(1, 1'024));
+    converter->add_option("--color-by,--field", words->color_by, "pictures: what the colours show")
+        ->capture_default_str();
+    converter->add_option("--palette", words->palette, "pictures: viridis, cividis, magma, coolwarm")
+        ->capture_default_str();
+    converter->add_option("--view", words->view, "pictures in 3D: standard, front, side, top, iso")
+        ->capture_default_str();
+    converter->add_option("--camera", words->camera, "pictures in 3D: the eye's place x,y,z [m] instead of a view");
+    converter->add_option("--target", words->target, "the point x,y,z that the eye looks at [m]; default: the middle");
+    converter->add_option("--up", words->up, "upwards for the eye, x,y,z; default: against gravity");
+    converter->add_option("--fps", words->fps, "films: frames a second")->capture_default_str();
     converter->add_option("--range", words->range, "pictures: ends of the colour scale, low:high");
     converter->add_option("--size", words->size, "pictures: WIDTHxHEIGHT in pixels");
     converter->add_option("--sheet", words->sheet, "pictures: how many on the contact sheet; 0: no sheet")

@@ -125,7 +125,7 @@ proto::Status add_probes(Connection& connection, const std::vector<proto::ProbeD
 proto::Result<Recorded> simulate(const LocalRun& words, const std::vector<Phase>& phases, const proto::Json& params,
                                  const std::optional<proto::FieldSet>& fields,
                                  const std::vector<proto::ProbeDesc>& probes) {
-    auto server = PrivateServer::start(words.threads);
+    auto server = PrivateServer::start(words.threads, scene_folder(words.scene));
     if (!server) return server.error();
     print_note("server " + (*server)->endpoint());
     auto connection = Connection::open((*server)->endpoint(), [&] { return (*server)->fate(); });

@@ -135,6 +135,10 @@ proto::Status check_refinable(const proto::SceneDesc& scene) {
     if (!names.empty())
         return usage_error("fixed for one spacing: " + names, "scene.parameters",
                            "leave them out of the scene: they then follow the spacing");
+    for (const proto::FluidDesc& fluid : scene.fluids)
+        if (fluid.particles)
+            return usage_error("fluid \"" + fluid.name + "\" has the particles of a file, at one spacing",
+                               "scene.fluids", "give it a shape: that is filled at every spacing");
     for (std::size_t k = 0; k < scene.events.size(); ++k) {
         const std::string path = "scene.events[" + std::to_string(k) + "]";
         if (scene.events[k].step)

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <thread>
 
 #include "client/arguments.h"
+#include "client/frame_selection.h"
 #include "client/interrupt.h"
 #include "client/object_timeline.h"
+#include "client/ordered_work.h"
 #include "client/probe_csv.h"
 #include "client/progress.h"
 #include "client/text.h"
@@ -30,44 +33,132 @@ std::vector<std::size_t> choose_frames(const proto::RecordingReader& reader, con
     return chosen;
 }
 
-proto::Result<std::vector<std::unique_ptr<Writer>>> make_writers(const ConvertOptions& options,
-                                                                 const proto::SceneDesc& scene, std::size_t frames) {
+proto::Error no_frames(const proto::RecordingReader& reader, const ConvertOptions& options) {
+    const proto::RecordingSummary& summary = reader.summary();
+    if (summary.frames == 0)
+        return {proto::ErrorCode::file_error, "the recording holds no frame", options.recording.string(), ""};
+    return {proto::ErrorCode::file_error, "no frame in the range asked for", options.recording.string(),
+            "its frames are from t " + number(summary.first_time) + " s to " + number(summary.last_time) + " s"};
+}
+
+const FormatInfo* find_format(std::string_view name) {
+    static const std::vector<FormatInfo> known = writer_formats();
+    const auto found = std::find_if(known.begin(), known.end(), [&](const FormatInfo& f) { return f.name == name; });
+    return found == known.end() ? nullptr : &*found;
+}
+
+std::string list_fields(proto::FieldSet fields) {
+    std::string text;
+    for (const proto::FieldInfo& info : proto::kFields)
+        if (fields.contains(info.field)) text += (text.empty() ? "" : ", ") + std::string(info.name);
+    return text;
+}
+
+// The first field of `wanted` that is not in `present`.
+const proto::FieldInfo* find_missing(proto::FieldSet wanted, proto::FieldSet present) {
+    for (const proto::FieldInfo& info : proto::kFields)
+        if (wanted.contains(info.field) && !present.contains(info.field)) return &info;
+    return nullptr;
+}
+
+proto::FieldSet needed_fields(const FormatInfo& format, proto::Field color_field) {
+    return format.is_picture ? format.needs | proto::FieldSet{color_field} : format.needs;
+}
+
+// A writer and the columns that it is given.
+struct Output {
+    std::unique_ptr<Writer> writer;
+    proto::FieldSet fields;
+};
+
+// Whether the recording holds what is asked for.
+proto::Status check_recorded(const ConvertOptions& options, proto::FieldSet recorded) {
+    const std::string hint = "the recording holds " + list_fields(recorded);
+    if (options.fields)
+        if (const proto::FieldInfo* missing = find_missing(*options.fields, recorded))
+            return usage_error("there is no field " + std::string(missing->name), "--fields", hint);
+    if (options.region && !recorded.contains(proto::Field::position))
+        return usage_error("a region needs the field position", "--region", hint);
+    for (const std::string& name : options.formats)
+        if (const proto::FieldInfo* missing =
+                find_missing(needed_fields(*find_format(name), options.picture.color_field), recorded))
+            return usage_error(name + " files need the field " + std::string(missing->name), "--format", hint);
+    return proto::Done{};
+}
+
+proto::Result<std::vector<Output>> make_outputs(const ConvertOptions& options, const proto::SceneDesc& scene,
+                                                std::size_t frames) {
     WriterOptions writer_options;
     writer_options.folder = options.folder;
     writer_options.stem = options.recording.stem().string();
     writer_options.scene = scene;
     writer_options.expected_frames = frames;
     writer_options.picture = options.picture;
-    std::vector<std::unique_ptr<Writer>> writers;
-    if (auto checked = check_formats(options.formats); !checked) return checked.error();
-    for (const std::string& format : options.formats) {
-        auto writer = make_writer(format, writer_options);
+    std::vector<Output> outputs;
+    for (const std::string& name : options.formats) {
+        auto writer = make_writer(name, writer_options);
         if (!writer) return writer.error();
-        writers.push_back(*std::move(writer));
+        proto::FieldSet fields;
+        for (const proto::FieldInfo& info : proto::kFields) fields.insert(info.field);
+        const FormatInfo& format = *find_format(name);
+        if (options.fields && !format.is_picture) fields = *options.fields | format.needs;
+        outputs.push_back({*std::move(writer), fields});
     }
-    return writers;
+    return outputs;
+}
+
+// One after the other until there is a particle in the region.
+proto::Status check_region(proto::RecordingReader& reader, const std::vector<std::size_t>& frames,
+                           const ConvertOptions& options) {
+    std::vector<std::byte> bytes;
+    for (const std::size_t index : frames) {
+        auto frame = reader.read_frame(index);
+        if (!frame) return frame.error();
+        if (select_region(*frame, *options.region, bytes).info.particle_count > 0) return proto::Done{};
+    }
+    return usage_error("no particle is ever inside", "--region", "the domain's corners are in the scene: scene.domain");
+}
+
+// What is left to do with a frame, in order, and its time.
+struct Prepared {
+    std::vector<Writer::InOrder> rest;
+    double time{};  // [s]
+};
+using Work = OrderedWork<proto::Result<Prepared>>;
+
+proto::Result<Prepared> prepare(proto::RecordingReader& reader, std::size_t index, std::size_t number,
+                                const ConvertOptions& options, const ObjectTimeline& timeline,
+                                const std::vector<Output>& outputs) {
+    auto frame = reader.read_frame(index);
+    if (!frame) return frame.error();
+    std::vector<std::byte> bytes;
+    if (options.region) frame = select_region(*frame, *options.region, bytes);
+    Prepared prepared{{}, frame->info.time};
+    for (const Output& output : outputs) {
+        const proto::FrameView part = select_fields(*frame, output.fields);
+        auto rest = output.writer->prepare({part, number, timeline.at(frame->info.step)});
+        if (!rest) return rest.error();
+        prepared.rest.push_back(*std::move(rest));
+    }
+    return prepared;
 }
 
 }  // namespace
 
 proto::Status check_formats(const std::vector<std::string>& formats) {
-    const auto known = writer_formats();
+    std::vector<std::string> known;
+    for (const FormatInfo& format : writer_formats()) known.emplace_back(format.name);
     for (const std::string& format : formats)
-        if (std::find(known.begin(), known.end(), format) == known.end())
+        if (find_format(format) == nullptr)
             return usage_error("there is no format \"" + format + "\"", "--format", proto::suggest(format, known));
     return proto::Done{};
 }
 
 proto::Status check_fields(const std::vector<std::string>& formats, proto::FieldSet fields, proto::Field color_field) {
-    for (const std::string& format : formats) {
-        proto::FieldSet needed;
-        if (format == "vtp" || format == "png") needed.insert(proto::Field::position);
-        if (format == "png") needed.insert(color_field);
-        for (const proto::FieldInfo& info : proto::kFields)
-            if (needed.contains(info.field) && !fields.contains(info.field))
-                return usage_error(format + " files need the field " + std::string(info.name), "--fields",
-                                   "add it, or give other formats by --format");
-    }
+    for (const std::string& format : formats)
+        if (const proto::FieldInfo* missing = find_missing(needed_fields(*find_format(format), color_field), fields))
+            return usage_error(format + " files need the field " + std::string(missing->name), "--fields",
+                               "add it, or give other formats by --format");
     return proto::Done{};
 }
 
@@ -83,6 +174,7 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
         conversion.probe_files = *std::move(files);
     }
     if (options.formats.empty()) return conversion;
+    if (auto checked = check_formats(options.formats); !checked) return checked.error();
     const proto::RecordingMetadata& metadata = reader.summary().metadata;
     auto scene = proto::parse_scene(metadata.scene_json);
     if (!scene) return scene.error();
@@ -91,27 +183,50 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
     const ObjectTimeline timeline(*std::move(objects), reader.events());
 
     const std::vector<std::size_t> frames = choose_frames(reader, options);
-    if (frames.empty())
-        return proto::Error{proto::ErrorCode::file_error, "no frame in the range asked for", options.recording.string(),
-                            "headrace info tells which times it has"};
-    auto writers = make_writers(options, *scene, frames.size());
-    if (!writers) return writers.error();
+    if (frames.empty()) return no_frames(reader, options);
+    auto first = reader.read_frame(frames.front());
+    if (!first) return first.error();
+    proto::FieldSet recorded;
+    for (const proto::FrameColumn& column : first->columns) recorded.insert(column.field);
+    if (auto checked = check_recorded(options, recorded); !checked) return checked.error();
+    if (options.region)
+        if (auto checked = check_region(reader, frames, options); !checked) return checked.error();
+    auto outputs = make_outputs(options, *scene, frames.size());
+    if (!outputs) return outputs.error();
+
+    // Each job reads by itself: unpacking and checking frames is a good part of the work.
+    std::vector<std::unique_ptr<proto::RecordingReader>> readers;
+    readers.push_back(*std::move(opened));
+    const std::size_t jobs = std::min<std::size_t>(
+        frames.size(), options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency()));
+    while (readers.size() < jobs) {
+        auto another = proto::RecordingReader::open(options.recording);
+        if (!another) return another.error();
+        readers.push_back(*std::move(another));
+    }
+    std::vector<Work::Make> workers;
+    for (const auto& own : readers)
+        workers.push_back([&, source = own.get()](std::size_t number) {
+            return prepare(*source, frames[number], number, options, timeline, *outputs);
+        });
 
     Progress progress = make_progress("converting");
-    for (const std::size_t index : frames) {
-        if (is_interrupted()) break;
-        auto frame = reader.read_frame(index);
-        if (!frame) return frame.error();
-        for (const auto& writer : *writers)
-            if (auto written = writer->write(*frame, timeline.at(frame->info.step)); !written) return written.error();
+    Work work(frames.size(), std::move(workers));
+    std::size_t count = frames.size();
+    while (conversion.frames < count) {
+        auto prepared = work.next();
+        if (!prepared) return prepared.error();
+        for (const Writer::InOrder& rest : prepared->rest)
+            if (auto done = rest(); !done) return done.error();
         ++conversion.frames;
         progress.update(static_cast<double>(conversion.frames) / static_cast<double>(frames.size()),
-                        "t " + number(frame->info.time) + " s");
+                        "t " + number(prepared->time) + " s");
+        if (is_interrupted()) count = work.stop();
     }
     progress.finish();
-    for (const auto& writer : *writers) {
-        if (auto finished = writer->finish(); !finished) return finished.error();
-        conversion.summaries.push_back(writer->summary());
+    for (const Output& output : *outputs) {
+        if (auto finished = output.writer->finish(); !finished) return finished.error();
+        conversion.summaries.push_back(output.writer->summary());
     }
     return conversion;
 }

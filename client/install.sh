@@ -5,7 +5,7 @@
 # What the two programs need. NAME=COMMAND: also content when the command is there from elsewhere.
 headrace_build_packages=(
     g++=g++ cmake=cmake make=make pkg-config=pkg-config libzmq3-dev cppzmq-dev nlohmann-json3-dev libcli11-dev
-    libhwy-dev libzstd-dev zlib1g-dev libcairo2-dev libmuparser-dev fonts-dejavu-core
+    libhwy-dev libzstd-dev zlib1g-dev libcairo2-dev libzip-dev libmuparser-dev fonts-dejavu-core
 )
 
 say() { printf '\n== %s\n' "$*"; }

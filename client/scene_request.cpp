@@ -8,12 +8,26 @@
 
 namespace headrace::client {
 
+namespace {
+
+bool is_document(const std::string& scene) {
+    std::error_code ignored;
+    return scene.ends_with(".json") || std::filesystem::is_regular_file(scene, ignored);
+}
+
+}  // namespace
+
+std::filesystem::path scene_folder(const std::string& scene) {
+    if (!is_document(scene)) return {};
+    const std::filesystem::path folder = std::filesystem::path(scene).parent_path();
+    return folder.empty() ? "." : folder;
+}
+
 proto::Result<proto::Json> scene_load_params(const std::string& scene, const std::vector<std::string>& assignments) {
     auto parameters = parse_assignments(assignments);
     if (!parameters) return parameters.error();
     proto::Json params = proto::to_json(proto::SceneLoad{scene, *std::move(parameters)});
-    std::error_code ignored;
-    if (scene.ends_with(".json") || std::filesystem::is_regular_file(scene, ignored)) {
+    if (is_document(scene)) {
         auto document = read_json_file(scene, "headrace scenes lists the scenes that need no file");
         if (!document) return document.error();
         params["scene"] = *std::move(document);

@@ -85,19 +85,19 @@ std::optional<std::string> endpoint_in_ready_line(const std::string& line) {
     return control->get<std::string>();
 }
 
-proto::Result<std::unique_ptr<PrivateServer>> PrivateServer::start(int threads, const fs::path& data) {
+proto::Result<std::unique_ptr<PrivateServer>> PrivateServer::start(int threads, const fs::path& data_folder) {
     const auto binary = find_server_binary();
     if (!binary) return failed("headraced is not installed beside headrace", "set HEADRACE_SERVER_BINARY to its path");
     auto folder = make_private_folder();
     if (!folder) return folder.error();
     std::unique_ptr<PrivateServer> server(new PrivateServer);
     server->folder_ = *folder;
-    if (auto spawned = server->spawn(*binary, threads, data); !spawned) return spawned.error();
+    if (auto spawned = server->spawn(*binary, threads, data_folder); !spawned) return spawned.error();
     if (auto ready = server->wait_until_ready(); !ready) return ready.error();
     return server;
 }
 
-proto::Status PrivateServer::spawn(const fs::path& binary, int threads, const fs::path& data) {
+proto::Status PrivateServer::spawn(const fs::path& binary, int threads, const fs::path& data_folder) {
     int in[2], out[2];
     if (!make_pipe(in)) return failed(std::strerror(errno));
     if (!make_pipe(out)) {
@@ -109,7 +109,7 @@ proto::Status PrivateServer::spawn(const fs::path& binary, int threads, const fs
                                    "--bind",
                                    "ipc://" + (folder_ / "s").string(),
                                    "--data",
-                                   (data.empty() ? folder_ : data).string(),
+                                   (data_folder.empty() ? folder_ : data_folder).string(),
                                    "--json",
                                    "--quit-on-stdin-eof"};
     if (threads > 0) words.insert(words.end(), {"--threads", std::to_string(threads)});

@@ -20,9 +20,10 @@ std::optional<std::string> endpoint_in_ready_line(const std::string& line);
 
 class PrivateServer {
   public:
-    // Returns when the server listens. `threads`: of the solver; 0: as many as the machine has. `data`: where the
-    // server records to; empty: the private folder, which goes with the server.
-    static proto::Result<std::unique_ptr<PrivateServer>> start(int threads, const std::filesystem::path& data = {});
+    // Returns when the server listens. `threads`: of the solver; 0: as many as the machine has. `data_folder`: where
+    // scenes have their files and recordings go; empty: the private folder, which goes with the server.
+    static proto::Result<std::unique_ptr<PrivateServer>> start(int threads,
+                                                               const std::filesystem::path& data_folder = {});
     // Ends the server by closing its standard input; kills it by its pid when it takes too long. Removes the folder.
     ~PrivateServer();
     PrivateServer(const PrivateServer&) = delete;
@@ -35,7 +36,7 @@ class PrivateServer {
 
   private:
     PrivateServer() = default;
-    proto::Status spawn(const std::filesystem::path& binary, int threads, const std::filesystem::path& data);
+    proto::Status spawn(const std::filesystem::path& binary, int threads, const std::filesystem::path& data_folder);
     proto::Status wait_until_ready();
     std::string last_log_line() const;
 

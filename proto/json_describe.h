@@ -15,6 +15,7 @@ void describe(Visitor& v, IntersectionDesc& intersection);
 void describe(Visitor& v, TableDesc& table);
 void describe(Visitor& v, FluidStartDesc& start);
 void describe(Visitor& v, MotionDesc& motion);
+void describe(Visitor& v, ParticleFileDesc& particles);
 void describe(Visitor& v, FluidDesc& fluid);
 void describe(Visitor& v, ObjectDesc& object);
 void describe(Visitor& v, DomainDesc& domain);

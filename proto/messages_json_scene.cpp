@@ -8,6 +8,7 @@ namespace headrace::proto {
 
 namespace {
 
+constexpr std::size_t kMaxFileName = 1000;    // characters
 constexpr std::size_t kMaxSceneItems = 1000;  // fluids, objects or events of a scene
 constexpr std::size_t kMaxParameters = 256;
 constexpr std::size_t kMaxShapeParts = 100;  // of a difference or an intersection
@@ -93,9 +94,22 @@ void describe(Visitor& v, FluidStartDesc& start) {
     v.optional("seed", start.seed, {.meaning = "of the random displacement"});
 }
 
+void describe(Visitor& v, ParticleFileDesc& particles) {
+    v.required(
+        "file", particles.file,
+        {.meaning = "path below the server's data folder: .npz with arrays position, velocity, pressure; .csv or "
+                    ".ply as headrace convert writes them. Positions are needed",
+         .max_length = kMaxFileName});
+}
+
 void describe(Visitor& v, FluidDesc& fluid) {
     v.required("name", fluid.name, {.meaning = "name of the fluid volume", .text = Text::name});
-    v.required("shape", fluid.shape, {.meaning = "volume that is filled with particles"});
+    // A box of no extent stands for none: no scene can have it.
+    std::optional<ShapeDesc> shape = fluid.shape == ShapeDesc{} ? std::nullopt : std::optional(fluid.shape);
+    v.optional("shape", shape, {.meaning = "volume that is filled with particles"});
+    v.optional("particles", fluid.particles, {.meaning = "particles of a file instead"});
+    v.exactly_one({{"shape", shape.has_value()}, {"particles", fluid.particles.has_value()}});
+    fluid.shape = shape.value_or(ShapeDesc{});
     v.optional("velocity", fluid.velocity,
                {.meaning = "velocity at the start: numbers, or expressions in x, y, z", .unit = "m/s"});
     v.optional("pressure", fluid.pressure,
@@ -105,6 +119,7 @@ void describe(Visitor& v, FluidDesc& fluid) {
         "hydrostatic", hydrostatic,
         {.meaning = "start with the pressure of still fluid below this volume's highest point", .only_true = true});
     fluid.hydrostatic = hydrostatic.value_or(false);
+    v.at_most_one({{"particles", fluid.particles.has_value()}, {"hydrostatic", fluid.hydrostatic}});
     v.at_most_one({{"pressure", fluid.pressure.has_value()}, {"hydrostatic", fluid.hydrostatic}});
     v.unless_default("start", fluid.start, {.meaning = "how its particles stand at the start"});
 }

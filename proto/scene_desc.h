@@ -95,14 +95,22 @@ struct FluidStartDesc {
     bool operator==(const FluidStartDesc&) const = default;
 };
 
+// Particles of a file below the server's data folder: .npz, .csv or .ply.
+struct ParticleFileDesc {
+    std::string file;
+
+    bool operator==(const ParticleFileDesc&) const = default;
+};
+
 // A volume of fluid at the start, filled with a lattice of the scene's spacing: particle centres at
-// min + (k + 1/2) spacing, kept where the centre lies inside the shape.
+// min + (k + 1/2) spacing, kept where the centre lies inside the shape. Or particles from a file.
 struct FluidDesc {
     std::string name;
-    ShapeDesc shape;
-    ScalarVec3 velocity{};           // [m/s] at t = 0
-    std::optional<Scalar> pressure;  // [Pa] at t = 0; absent: 0, or hydrostatic
-    bool hydrostatic{false};         // pressure of still fluid below this volume's highest point
+    ShapeDesc shape;                            // without meaning where there are `particles`
+    std::optional<ParticleFileDesc> particles;  // instead of the shape; what velocities and pressures it has hold
+    ScalarVec3 velocity{};                      // [m/s] at t = 0
+    std::optional<Scalar> pressure;             // [Pa] at t = 0; absent: 0, or hydrostatic
+    bool hydrostatic{false};                    // pressure of still fluid below this volume's highest point
     FluidStartDesc start;
 };
 

@@ -11,9 +11,11 @@ namespace headrace::server {
 
 namespace {
 
-proto::Result<std::shared_ptr<scene::Run>> build(const proto::SceneDesc& scene, scene::BuildControl& control) {
+proto::Result<std::shared_ptr<scene::Run>> build(const proto::SceneDesc& scene,
+                                                 const std::filesystem::path& data_folder,
+                                                 scene::BuildControl& control) {
     try {
-        auto run = scene::Run::build(scene, &control);
+        auto run = scene::Run::build(scene, &control, data_folder);
         if (!run) return run.error();
         return std::shared_ptr<scene::Run>(std::move(*run));
     } catch (const std::bad_alloc&) {
@@ -35,11 +37,12 @@ Loader::~Loader() {
     finish();
 }
 
-void Loader::start(const proto::SceneDesc& scene, int threads, Deliver deliver) {
+void Loader::start(const proto::SceneDesc& scene, int threads, const std::filesystem::path& data_folder,
+                   Deliver deliver) {
     control_ = std::make_shared<scene::BuildControl>();
-    worker_ = std::thread([scene, threads, deliver = std::move(deliver), control = control_] {
+    worker_ = std::thread([scene, threads, data_folder, deliver = std::move(deliver), control = control_] {
         omp_set_num_threads(threads);
-        deliver(build(scene, *control));
+        deliver(build(scene, data_folder, *control));
     });
 }
 

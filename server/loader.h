@@ -1,6 +1,7 @@
 // Builds a scene on a worker thread: a million particles must not block a query, and loading can be cancelled.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -18,7 +19,7 @@ class Loader {
     ~Loader();  // cancels and joins
 
     // Precondition: !is_loading(). `deliver` is called once, on the worker thread. `threads` is its OpenMP team.
-    void start(const proto::SceneDesc& scene, int threads, Deliver deliver);
+    void start(const proto::SceneDesc& scene, int threads, const std::filesystem::path& data_folder, Deliver deliver);
     void cancel();  // the outcome, error `cancelled`, is still delivered
     void finish();  // joins the worker after its delivery
 

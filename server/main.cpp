@@ -44,7 +44,9 @@ void declare_options(CLI::App& app, Options& options) {
     app.add_option("--bind", options.server.bind,
                    "tcp://HOST:PORT (this port and the next three; * takes free ones) or ipc://PATH")
         ->capture_default_str();
-    app.add_option("--data", options.data, "folder below which recordings are written")->capture_default_str();
+    app.add_option("--data", options.data,
+                   "folder below which recordings are written, and particle files of scenes read")
+        ->capture_default_str();
     app.add_option("--threads", options.server.threads, "threads of the solver; 0: as many as the machine has")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();

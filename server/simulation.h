@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -19,7 +20,8 @@ class FrameHub;
 namespace headrace::server {
 
 struct SimulationOptions {
-    int threads{0};  // OpenMP team; 0: as many as the machine has
+    int threads{0};                     // OpenMP team; 0: as many as the machine has
+    std::filesystem::path data_folder;  // scenes read files below it
 };
 
 class Simulation {

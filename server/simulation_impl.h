@@ -39,6 +39,7 @@ struct Simulation::Impl {
     Impl(const SimulationOptions& options, Outbox& replies, EventLog& event_log, JobBoard& job_board,
          StatusBoard& status_board, ProbeBoard& probe_board, publish::FrameHub& frame_hub)
         : threads(options.threads > 0 ? options.threads : omp_get_num_procs()),
+          data_folder(options.data_folder),
           outbox(replies),
           events(event_log),
           jobs(job_board),
@@ -137,6 +138,7 @@ struct Simulation::Impl {
     // ---- state ------------------------------------------------------------------------------------------------------
 
     const int threads;
+    const std::filesystem::path data_folder;
     Outbox& outbox;
     EventLog& events;
     JobBoard& jobs;

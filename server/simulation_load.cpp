@@ -14,7 +14,7 @@ void Simulation::Impl::apply(Token token, proto::SimReset) {
 
 void Simulation::Impl::start_load(Token token, const proto::SceneDesc& scene, bool is_reset) {
     load_token = token;
-    loader.start(scene, threads, [this, is_reset](Result<std::shared_ptr<scene::Run>> built) {
+    loader.start(scene, threads, data_folder, [this, is_reset](Result<std::shared_ptr<scene::Run>> built) {
         inbox.put(0, LoadFinished{std::move(built), is_reset});
     });
     write_status();

@@ -13,9 +13,9 @@ usage: tests/run.sh [--full] [--preset NAME] [--label LABEL] [ctest arguments]
 Installs missing packages, builds, and runs the tests with ctest. Tests whose tools are not installed are reported as
 skipped.
 
-  --full          installs those tools too (VTK, mandoc, zsh, fish, clang-format, valgrind, Node.js and its packages,
-                  Matplotlib, mypy, pip, GNU parallel, Slurm); then a skipped test is a failure, unless it lacks the
-                  reference data of the validation
+  --full          installs those tools too (VTK, mandoc, zsh, fish, clang-format, valgrind, POV-Ray, Node.js and its
+                  packages, Matplotlib, mypy, pip, GNU parallel, Slurm); then a skipped test is a failure, unless it
+                  lacks the reference data of the validation
   --preset NAME   release (default), debug, asan or tsan: see CMakePresets.json
   --label LABEL   only tests with this label: unit, stability, protocol, validation, cli, script, python, demo
   --help          this text
@@ -53,10 +53,10 @@ case "$preset" in
 esac
 
 packages=("${headrace_build_packages[@]}" catch2 python3 python3-zmq python3-numpy python3-jsonschema python3-pytest
-    tmux=tmux)
-[ $full = no ] || packages+=(python3-vtk9 mandoc=mandoc zsh=zsh fish=fish clang-format valgrind=valgrind nodejs=node npm=npm
-    python3-venv python3-pip python3-setuptools python3-wheel python3-matplotlib python3-zstandard mypy=mypy
-    parallel slurm-wlm munge)
+    tmux=tmux ffmpeg=ffmpeg)
+[ $full = no ] || packages+=(python3-vtk9 mandoc=mandoc zsh=zsh fish=fish clang-format valgrind=valgrind povray=povray
+    nodejs=node npm=npm python3-venv python3-pip python3-setuptools python3-wheel python3-matplotlib python3-zstandard
+    mypy=mypy parallel slurm-wlm munge)
 install_packages "${packages[@]}"
 
 # The MCAP reader of another project judges our recordings.

@@ -74,6 +74,13 @@ headrace_script_test("mcap: the reference implementation reads the programs' rec
 headrace_script_test("vtp: VTK finds the numbers of the CSV files" script support/check_vtp.py
                      ${results}/commands/whole/idle.pvd --frames 11 --points 2197
                      --csv ${results}/commands/whole/idle_frames.csv FIXTURE commands)
+set_tests_properties("cli: convert" PROPERTIES FIXTURES_SETUP converted)
+headrace_script_test("npz, ply, csv: NumPy finds the same numbers" script support/check_converted.py ${results}/convert flat
+                     --frames 11 NEEDS numpy FIXTURE converted)
+headrace_script_test("ply: VTK finds the numbers of the CSV files" script support/check_converted.py ${results}/convert flat
+                     --frames 11 --vtk NEEDS numpy FIXTURE converted)
+headrace_script_test("vtp: VTK finds the numbers of a flat scene" script support/check_vtp.py ${results}/convert/flat.pvd
+                     --frames 11 --points 100 --csv ${results}/convert/flat_frames.csv FIXTURE converted)
 headrace_script_test("install: the programs work from where they are installed" script support/check_installed.sh
                      ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR} ${results}/prefix)
 

@@ -60,7 +60,7 @@ void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, d
     for (int y = 0; y < box.height; ++y) {
         const double t = box.height > 1 ? 1 - static_cast<double>(y) / (box.height - 1) : 0;
         std::uint32_t* row = image.row(box.top + y) + box.left;
-        std::fill_n(row, box.width, Image::packed(palette_color(t)));
+        std::fill_n(row, box.width, Image::packed(palette_color(t, colors.palette)));
     }
 
     const Canvas canvas(image);
@@ -90,6 +90,28 @@ void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, d
     if (info.is_vector) legend = "|" + legend + "|";  // colours stand for the magnitude
     if (info.unit != "1") legend.append("  [").append(typeset_unit(info.unit)).append("]");
     show_text(canvas, box.left, box.top - 13 * scale, legend);
+}
+
+void draw_scale_bar(Image& image, double x, double y, double pixels_per_metre, double scale) {
+    // The largest round number of metres that takes at most 160 px.
+    const double longest = 160 * scale / pixels_per_metre;
+    const double power = std::pow(10.0, std::floor(std::log10(longest)));
+    double length = power;
+    for (const double nice : {2.0, 5.0})
+        if (nice * power <= longest) length = nice * power;
+    const double right = x + length * pixels_per_metre, tick = 4 * scale;
+    const Canvas canvas(image);
+    canvas.set_color(kInk);
+    cairo_set_line_width(canvas(), 1.5 * scale);
+    cairo_move_to(canvas(), x, y - tick);
+    cairo_line_to(canvas(), x, y + tick);
+    cairo_move_to(canvas(), x, y);
+    cairo_line_to(canvas(), right, y);
+    cairo_move_to(canvas(), right, y - tick);
+    cairo_line_to(canvas(), right, y + tick);
+    cairo_stroke(canvas());
+    select_font(canvas, 14 * scale, Weight::normal);
+    show_text(canvas, right + 8 * scale, y + 5 * scale, short_number(length) + " m");
 }
 
 void draw_text(Image& image, double x, double y, double size, const std::string& text, Weight weight) {

@@ -20,6 +20,9 @@ BarBox bar_box(int picture_height, int right_edge, double scale);
 // The bar with its frame, ticks, the field's name and its unit. `scale`: size of text, 1 for a picture 720 px high.
 void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, double scale);
 
+// A bar of a round length with that length beside it; x, y: its left end [px]. For views without perspective.
+void draw_scale_bar(Image& image, double x, double y, double pixels_per_metre, double scale);
+
 enum class Weight { normal, bold };
 // x, y: left end of the base line [px]; size: of the font [px].
 void draw_text(Image& image, double x, double y, double size, const std::string& text, Weight weight = Weight::normal);

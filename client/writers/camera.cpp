@@ -55,6 +55,18 @@ Camera Camera::orthographic(std::span<const Vec3> points, const Vec3& up, const 
     return camera;
 }
 
+Camera Camera::looking(std::span<const Vec3> points, const std::optional<Vec3>& eye, const Vec3& backward,
+                       const Vec3& up, const Viewport& viewport) {
+    Camera camera;
+    camera.is_perspective_ = eye.has_value();
+    camera.eye_ = eye.value_or(Vec3{});
+    camera.backward_ = normalized(backward);
+    camera.right_ = normalized(cross(up, camera.backward_));
+    camera.up_ = cross(camera.backward_, camera.right_);
+    camera.fit(points, viewport);
+    return camera;
+}
+
 // Scale and shift are affine in the picture, so one look at the points is enough.
 void Camera::fit(std::span<const Vec3> points, const Viewport& viewport) {
     focal_ = 1;

@@ -1,6 +1,7 @@
 // From metres to pixels. Perspective three-quarter view of 3D scenes, orthographic front view of 2D scenes.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "client/writers/vec3.h"
@@ -24,6 +25,11 @@ class Camera {
     static Camera perspective(std::span<const Vec3> points, const Vec3& up, const Viewport& viewport);
     static Camera orthographic(std::span<const Vec3> points, const Vec3& up, const Viewport& viewport);
 
+    // From an eye, or (`eye` absent) from far away: orthographic. `backward` points to the viewer, `up` is any
+    // direction aside of it.
+    static Camera looking(std::span<const Vec3> points, const std::optional<Vec3>& eye, const Vec3& backward,
+                          const Vec3& up, const Viewport& viewport);
+
     Projected project(const Vec3& x) const;
     double pixels_per_metre(double nearness) const { return is_perspective_ ? focal_ * nearness : focal_; }
     // Change of nearness per metre towards the camera.
@@ -43,6 +49,8 @@ class Camera {
     }
     double nearness_at_depth(double depth) const { return is_perspective_ ? 1 / depth : -depth; }
 
+    const Vec3& eye() const { return eye_; }  // of perspective views
+    bool is_perspective() const { return is_perspective_; }
     const Vec3& right() const { return right_; }
     const Vec3& up() const { return up_; }
     const Vec3& backward() const { return backward_; }  // towards the viewer

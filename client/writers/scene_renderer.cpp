@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "client/writers/object_drawing.h"
 #include "client/writers/palette.h"
@@ -12,23 +13,35 @@ namespace {
 
 constexpr std::size_t kShades = 1024;  // finer than 8 bits a channel can show
 
-Camera make_camera(const proto::SceneDesc& scene, const Viewport& viewport) {
-    const std::vector<Vec3> outline = visible_outline(scene);
-    return scene.dimensions == 2 ? Camera::orthographic(outline, up_axis(scene), viewport)
-                                 : Camera::perspective(outline, up_axis(scene), viewport);
-}
-
 }  // namespace
 
 SceneRenderer::SceneRenderer(const proto::SceneDesc& scene, const ColorScale& colors, int width, int height,
-                             const Viewport& viewport)
+                             const Viewport& viewport, const ViewOptions& view)
     : dimensions_(scene.dimensions),
       radius_(particle_radius(scene)),
       colors_(colors),
       width_(width),
       height_(height),
-      raster_(width, height, make_camera(scene, viewport)) {
-    for (std::size_t k = 0; k < kShades; ++k) palette_.push_back(palette_color(static_cast<double>(k) / (kShades - 1)));
+      camera_(make_camera(scene, view, viewport)) {
+    for (std::size_t k = 0; k < kShades; ++k)
+        palette_.push_back(palette_color(static_cast<double>(k) / (kShades - 1), colors.palette));
+}
+
+Raster SceneRenderer::borrow_raster() const {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!idle_.empty()) {
+            Raster raster = std::move(idle_.back());
+            idle_.pop_back();
+            return raster;
+        }
+    }
+    return {width_, height_, camera_};
+}
+
+void SceneRenderer::give_back(Raster raster) const {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(raster));
 }
 
 // Near particles first: hidden ones then end at the depth test. With 98,304 particles this takes 51 ms instead of 127.
@@ -46,21 +59,23 @@ std::vector<std::size_t> SceneRenderer::front_to_back(std::span<const Vec3> posi
 }
 
 Image SceneRenderer::draw(std::span<const Vec3> positions, std::span<const float> values,
-                          const std::vector<proto::ObjectDesc>& objects) {
-    raster_.clear(kPaper);
+                          const std::vector<proto::ObjectDesc>& objects) const {
+    Raster raster = borrow_raster();
+    raster.clear(kPaper);
     const double per_value = (kShades - 1) / (colors_.max - colors_.min);
     for (const std::size_t k : front_to_back(positions)) {
         const double shade = std::clamp((values[k] - colors_.min) * per_value, 0.0, kShades - 1.0);
-        raster_.particle(positions[k], radius_,
-                         std::isnan(values[k]) ? kNotANumber : palette_[static_cast<std::size_t>(shade + 0.5)]);
+        raster.particle(positions[k], radius_,
+                        std::isnan(values[k]) ? kNotANumber : palette_[static_cast<std::size_t>(shade + 0.5)]);
     }
     if (dimensions_ == 2)
-        draw_flat_objects(raster_, objects, 2 * radius_);
+        draw_flat_objects(raster, objects, 2 * radius_);
     else
-        draw_objects(raster_, objects);
+        draw_objects(raster, objects);
 
     Image image(width_, height_, kPaper);
-    raster_.resolve(image);
+    raster.resolve(image);
+    give_back(std::move(raster));
     return image;
 }
 

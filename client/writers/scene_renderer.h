@@ -1,6 +1,7 @@
 // A frame's particles and objects as an image, without text.
 #pragma once
 
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -12,19 +13,21 @@ namespace headrace::client {
 
 inline constexpr Rgb kPaper{0xFF, 0xFF, 0xFF};  // background of all pictures
 
-// Owner: one thread. Its buffers are kept from frame to frame.
+// Draws on any thread, several frames at a time; its buffers are kept from frame to frame.
 class SceneRenderer {
   public:
     SceneRenderer(const proto::SceneDesc& scene, const ColorScale& colors, int width, int height,
-                  const Viewport& viewport);
+                  const Viewport& viewport, const ViewOptions& view = {});
 
     // One value per position: its colour on the scale.
     Image draw(std::span<const Vec3> positions, std::span<const float> values,
-               const std::vector<proto::ObjectDesc>& objects);
+               const std::vector<proto::ObjectDesc>& objects) const;
 
-    const Camera& camera() const { return raster_.camera(); }
+    const Camera& camera() const { return camera_; }
 
   private:
+    Raster borrow_raster() const;
+    void give_back(Raster raster) const;
     std::vector<std::size_t> front_to_back(std::span<const Vec3> positions) const;
 
     int dimensions_;
@@ -32,7 +35,9 @@ class SceneRenderer {
     ColorScale colors_;
     std::vector<Rgb> palette_;
     int width_, height_;  // [px]
-    Raster raster_;
+    Camera camera_;
+    mutable std::mutex mutex_;          // guards idle_
+    mutable std::vector<Raster> idle_;  // at most as many as there were frames in work at a time
 };
 
 }  // namespace headrace::client

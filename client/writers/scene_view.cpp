@@ -67,7 +67,8 @@ double fall_height(const SceneDesc& scene) {
     const Vec3 up = up_axis(scene);
     const BoxDesc bounds = visible_bounds(scene);
     BoxDesc fluid = kNothing;
-    for (const proto::FluidDesc& desc : scene.fluids) include(fluid, bounding_box(desc.shape));
+    for (const proto::FluidDesc& desc : scene.fluids)
+        include(fluid, desc.particles ? bounds : bounding_box(desc.shape));
     if (scene.fluids.empty()) fluid = bounds;
     // One of the two corners is the lower one, whichever way up is.
     const double floor = std::min(dot(bounds.min, up), dot(bounds.max, up));
@@ -98,7 +99,8 @@ Vec3 up_axis(const SceneDesc& scene) {
 
 BoxDesc visible_bounds(const SceneDesc& scene) {
     BoxDesc bounds = container_bounds(scene.objects);
-    for (const proto::FluidDesc& fluid : scene.fluids) include(bounds, bounding_box(fluid.shape));
+    for (const proto::FluidDesc& fluid : scene.fluids)
+        if (!fluid.particles) include(bounds, bounding_box(fluid.shape));
     for (const proto::ObjectDesc& object : scene.objects)
         if (object.role == proto::ObjectRole::obstacle && !is_plane(object.shape))
             include(bounds, inside_containers(bounding_box(object.shape), scene.objects));
@@ -134,6 +136,50 @@ std::vector<Vec3> visible_outline(const SceneDesc& scene) {
     return points;
 }
 
+proto::Status check_view(const SceneDesc& scene, const ViewOptions& view) {
+    if (!view.position || scene.dimensions == 2) return proto::Done{};
+    const BoxDesc bounds = visible_bounds(scene);
+    const Vec3 backward = *view.position - view.target.value_or(0.5 * (bounds.min + bounds.max));
+    const double slack = 1e-6 * length(bounds.max - bounds.min);
+    if (!(length(backward) > slack))
+        return proto::Error{proto::ErrorCode::invalid_params, "the eye is where it looks at", "--camera",
+                            "give --camera and --target two places"};
+    const Vec3 up = view.up.value_or(up_axis(scene));
+    if (!(length(cross(up, backward)) > 1e-6 * length(up) * length(backward)))
+        return proto::Error{proto::ErrorCode::invalid_params, "the eye looks along the direction upwards", "--up",
+                            "give another direction"};
+    for (const Vec3& point : visible_outline(scene))
+        if (!(dot(*view.position - point, normalized(backward)) > slack))
+            return proto::Error{proto::ErrorCode::invalid_params, "a part of the scene is behind the eye", "--camera",
+                                "move it away from the scene, which reaches from scene.domain's min to max at most"};
+    return proto::Done{};
+}
+
+Camera make_camera(const SceneDesc& scene, const ViewOptions& view, const Viewport& viewport) {
+    const std::vector<Vec3> outline = visible_outline(scene);
+    const Vec3 up = up_axis(scene);
+    if (scene.dimensions == 2) return Camera::orthographic(outline, up, viewport);
+    const BoxDesc bounds = visible_bounds(scene);
+    const Vec3 middle = 0.5 * (bounds.min + bounds.max);
+    if (view.position)
+        return Camera::looking(outline, view.position, *view.position - view.target.value_or(middle),
+                               view.up.value_or(up), viewport);
+    const Camera front = Camera::orthographic(outline, up, viewport);
+    switch (view.name) {
+        case ViewName::front:
+            return front;
+        case ViewName::side:
+            return Camera::looking(outline, {}, front.right(), up, viewport);
+        case ViewName::top:
+            return Camera::looking(outline, {}, up, -1 * front.backward(), viewport);
+        case ViewName::iso:
+            return Camera::looking(outline, {}, front.right() + up + front.backward(), up, viewport);
+        case ViewName::standard:
+            break;
+    }
+    return Camera::perspective(outline, up, viewport);
+}
+
 BoxDesc inside_containers(const BoxDesc& box, const std::vector<proto::ObjectDesc>& objects) {
     const BoxDesc containers = container_bounds(objects);
     BoxDesc inside = box;
@@ -157,7 +203,7 @@ double particle_radius(const SceneDesc& scene) {
 ColorScale make_color_scale(const SceneDesc& scene, const PictureOptions& options) {
     const double g = length(gravity_of(scene)), rest_density = number_parameter(scene, "rest_density", kWaterDensity);
     const double height = fall_height(scene);
-    ColorScale scale{options.color_field, 0, 1};
+    ColorScale scale{options.color_field, 0, 1, options.palette};
     switch (options.color_field) {
         case proto::Field::velocity: {
             double start = 0;  // [m/s] fastest fluid at the start

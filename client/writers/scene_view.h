@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/writers/camera.h"
+#include "client/writers/palette.h"
 #include "client/writers/writer.h"
 
 namespace headrace::client {
@@ -13,6 +14,7 @@ namespace headrace::client {
 struct ColorScale {
     proto::Field field{proto::Field::velocity};
     double min{0}, max{1};
+    Palette palette{Palette::viridis};
 };
 
 // The coordinate axis that is nearest to against gravity; y when there is none.
@@ -24,6 +26,12 @@ proto::BoxDesc visible_bounds(const proto::SceneDesc& scene);
 
 // Points around all that is visible: corners of boxes, surfaces of spheres.
 std::vector<Vec3> visible_outline(const proto::SceneDesc& scene);
+
+// Errors: invalid_params for an eye that cannot see all that is visible, or does not know where up is.
+proto::Status check_view(const proto::SceneDesc& scene, const ViewOptions& view);
+
+// Precondition: check_view. Sees all that is visible, from where the options say.
+Camera make_camera(const proto::SceneDesc& scene, const ViewOptions& view, const Viewport& viewport);
 
 // The part of an object's box that is inside the containers: a panel may reach through walls, which cannot matter.
 proto::BoxDesc inside_containers(const proto::BoxDesc& box, const std::vector<proto::ObjectDesc>& objects);

@@ -1,10 +1,10 @@
 // ParaView files: per frame <stem>_000123.vtp with the particles as vertices, <stem>_objects_000000.vtp whenever the
 // collision objects change, and <stem>.pvd that gives both a simulated time (parts 0 and 1).
-#include <charconv>
 #include <cstring>
 #include <limits>
 #include <numeric>
 
+#include "client/writers/exact_text.h"
 #include "client/writers/file_output.h"
 #include "client/writers/formats.h"
 #include "client/writers/object_mesh.h"
@@ -40,11 +40,6 @@ bool same_objects(const std::vector<proto::ObjectDesc>& a, const std::vector<pro
     for (std::size_t k = 0; k < a.size(); ++k)
         if (a[k].name != b[k].name || a[k].role != b[k].role || a[k].shape != b[k].shape) return false;
     return true;
-}
-
-std::string exact(double number) {
-    char digits[40];
-    return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
 }
 
 // `radius`: of a particle when drawn. [m]
@@ -85,7 +80,8 @@ class VtpWriter final : public Writer {
         if (!is_finished_ && frames_ > 0) static_cast<void>(write_collection().ok());
     }
 
-    proto::Status write(const FrameView& frame, const std::vector<proto::ObjectDesc>& objects) override {
+    proto::Result<InOrder> prepare(const FrameTask& task) override {
+        const FrameView& frame = task.frame;
         const FrameColumn* position = frame.find(proto::Field::position);
         if (position == nullptr)
             return proto::Error{proto::ErrorCode::invalid_params, "the frames hold no positions", "fields",
@@ -94,14 +90,16 @@ class VtpWriter final : public Writer {
             return proto::Error{proto::ErrorCode::limit_exceeded, "a .vtp file holds 2^31 - 1 particles at most", "",
                                 ""};
 
-        const std::string name = numbered_name(options_.stem, frames_, "vtp");
+        const std::string name = numbered_name(options_.stem, task.number, "vtp");
         if (auto done = write_vtp(options_.folder / name, make_particles(frame, *position, radius_)); !done)
-            return done;
-        if (auto done = write_objects(objects, frame.info.dimensions); !done) return done;
-        list(frame.info.time, 0, name);
-        if (!object_file_.empty()) list(frame.info.time, 1, object_file_);
-        ++frames_;
-        return proto::Done{};
+            return done.error();
+        return InOrder([this, info = frame.info, objects = task.objects, name] {
+            if (auto done = write_objects(objects, info.dimensions); !done) return done;
+            list(info.time, 0, name);
+            if (!object_file_.empty()) list(info.time, 1, object_file_);
+            ++frames_;
+            return proto::Status(proto::Done{});
+        });
     }
 
     proto::Status finish() override {
@@ -124,8 +122,9 @@ class VtpWriter final : public Writer {
     }
 
     void list(double time, int part, const std::string& file) {
-        entries_ += "<DataSet timestep=\"" + exact(time) + "\" group=\"\" part=\"" + std::to_string(part) +
-                    "\" file=\"" + xml_escaped(file) + "\"/>\n";
+        entries_ += "<DataSet timestep=\"";
+        append_number(entries_, time);
+        entries_ += "\" group=\"\" part=\"" + std::to_string(part) + "\" file=\"" + xml_escaped(file) + "\"/>\n";
     }
 
     proto::Status write_collection() const {

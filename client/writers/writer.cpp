@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "client/writers/formats.h"
+#include "client/writers/scene_view.h"
 #include "proto/suggest.h"
 
 namespace headrace::client {
@@ -15,14 +16,20 @@ using proto::Error;
 using proto::ErrorCode;
 
 struct Format {
-    std::string_view name;
+    FormatInfo info;
     std::unique_ptr<Writer> (*make)(const WriterOptions&);
 };
 
-constexpr std::array<Format, 3> kFormats{{
-    {"vtp", make_vtp_writer},
-    {"csv", make_csv_writer},
-    {"png", make_picture_writer},
+using proto::Field;
+constexpr std::array<Format, 8> kFormats{{
+    {{"vtp", {Field::position}, false}, make_vtp_writer},
+    {{"csv", {}, false}, make_csv_writer},
+    {{"csv-long", {Field::id}, false}, make_long_csv_writer},
+    {{"npz", {}, false}, make_npz_writer},
+    {{"ply", {Field::position}, false}, make_ply_writer},
+    {{"png", {Field::position}, true}, make_picture_writer},
+    {{"mp4", {Field::position}, true}, make_mp4_writer},
+    {{"pov", {Field::position}, true}, make_pov_writer},
 }};
 
 proto::Status check_picture(const PictureOptions& picture) {
@@ -35,6 +42,8 @@ proto::Status check_picture(const PictureOptions& picture) {
     for (const auto& end : {picture.color_min, picture.color_max})
         if (end && !std::isfinite(*end))
             return Error{ErrorCode::invalid_params, "the ends of the colour scale must be finite", "picture", ""};
+    if (!(picture.fps >= 1 && picture.fps <= 240))
+        return Error{ErrorCode::invalid_params, "films have 1 to 240 pictures a second", "picture.fps", ""};
     if (picture.color_min && picture.color_max && !(*picture.color_min < *picture.color_max))
         return Error{ErrorCode::invalid_params, "the colour scale must ascend", "picture.color_min", ""};
     return proto::Done{};
@@ -42,22 +51,37 @@ proto::Status check_picture(const PictureOptions& picture) {
 
 }  // namespace
 
-std::vector<std::string> writer_formats() {
-    std::vector<std::string> names;
-    for (const Format& format : kFormats) names.emplace_back(format.name);
-    return names;
+std::vector<FormatInfo> writer_formats() {
+    std::vector<FormatInfo> formats;
+    for (const Format& format : kFormats) formats.push_back(format.info);
+    return formats;
+}
+
+proto::Status Writer::write(const proto::FrameView& frame, const std::vector<proto::ObjectDesc>& objects) {
+    auto rest = prepare({frame, written_++, objects});
+    return rest ? (*rest)() : proto::Status(rest.error());
 }
 
 proto::Result<std::unique_ptr<Writer>> make_writer(std::string_view format, const WriterOptions& options) {
     const Format* found = nullptr;
     for (const Format& candidate : kFormats)
-        if (candidate.name == format) found = &candidate;
-    if (found == nullptr)
+        if (candidate.info.name == format) found = &candidate;
+    if (found == nullptr) {
+        std::vector<std::string> known;
+        for (const Format& candidate : kFormats) known.emplace_back(candidate.info.name);
         return Error{ErrorCode::invalid_params, "there is no file format \"" + std::string(format) + "\"", "format",
-                     proto::suggest(format, writer_formats())};
+                     proto::suggest(format, known)};
+    }
     if (options.stem.empty() || options.stem.find('/') != std::string::npos)
         return Error{ErrorCode::invalid_params, "file names need a stem without slashes", "stem", ""};
     if (const proto::Status checked = check_picture(options.picture); !checked) return checked.error();
+
+    if (found->info.is_picture)
+        if (const proto::Status checked = check_view(options.scene, options.picture.view); !checked)
+            return checked.error();
+    if (format == "mp4" && !has_ffmpeg())
+        return Error{ErrorCode::file_error, "films need ffmpeg, which is not installed", "format",
+                     "apt-get install ffmpeg, or choose the format png"};
 
     std::error_code failure;
     std::filesystem::create_directories(options.folder.empty() ? "." : options.folder, failure);

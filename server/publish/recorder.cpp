@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "proto/messages_json.h"
+#include "proto/path_below.h"
 #include "proto/version.h"
 #include "server/publish/encode.h"
 #include "server/publish/report.h"
@@ -28,21 +29,13 @@ std::string hex(std::uint64_t number) {
 // Files only below the data folder, links resolved.
 proto::Result<fs::path> Recorder::resolve(const std::string& file) const {
     const fs::path relative(file);
-    const auto refuse = [&](const char* message) {
-        return Error{ErrorCode::file_error, message, "params.file",
-                     "give a path below the server's data folder (headraced --data) that ends in .mcap"};
-    };
-    if (relative.extension() != ".mcap") return refuse("a recording's name ends in .mcap");
-    if (relative.is_absolute()) return refuse("an absolute path is not allowed");
+    const char* const hint = "give a path below the server's data folder (headraced --data) that ends in .mcap";
+    if (relative.extension() != ".mcap")
+        return Error{ErrorCode::file_error, "a recording's name ends in .mcap", "params.file", hint};
+    auto path = proto::path_below(data_folder_, file, "params.file", hint);
+    if (!path) return path;
     std::error_code error;
-    const fs::path root = fs::weakly_canonical(data_folder_, error);
-    const fs::path path = error ? fs::path() : fs::weakly_canonical(root / relative, error);
-    if (error) return refuse("the path cannot be resolved");
-    const auto [end, unused] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
-    if (end != root.end()) return refuse("the path leaves the data folder");
-    // A link that leads nowhere is left unresolved above, and would be written through.
-    if (fs::is_symlink(fs::symlink_status(path, error))) return refuse("the path is a link that leads nowhere");
-    if (!fs::is_directory(path.parent_path(), error))
+    if (!fs::is_directory(path->parent_path(), error))
         return Error{ErrorCode::file_error, "no folder " + relative.parent_path().string(), "params.file",
                      "make the folder on the server's machine first"};
     return path;

@@ -8,6 +8,7 @@
 #include "server/scene/body_force.h"
 #include "server/scene/collision_objects.h"
 #include "server/scene/expressions.h"
+#include "server/scene/particle_file.h"
 #include "server/scene/shapes.h"
 #include "server/scene/starts.h"
 #include "server/scene/validate.h"
@@ -86,10 +87,13 @@ Status Run::check_objects(const solver::CollisionObject& object, std::size_t rep
                  "make the object smaller: one that moves counts as a whole"};
 }
 
-Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildControl* control) {
+Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildControl* control,
+                                        const std::filesystem::path& data_folder) {
     BuildControl nobody;
     BuildControl& watched = control != nullptr ? *control : nobody;
-    if (Status status = validate(scene, watched); !status) return status.error();
+    auto files = read_fluid_files(scene, data_folder);
+    if (!files) return files.error();
+    if (Status status = validate(scene, watched, *files); !status) return status.error();
 
     std::unique_ptr<Run> run(new Run);
     run->scene_ = scene;
@@ -111,11 +115,11 @@ Result<std::unique_ptr<Run>> Run::build(const proto::SceneDesc& scene, BuildCont
         return Error{ErrorCode::scene_invalid, *refusal,
                      scene.frame_acceleration ? "scene.frame_acceleration" : "scene.body_force", kOtherModelHint};
 
-    Result<solver::Particles> particles = place_fluids(scene, watched);
+    Result<solver::Particles> particles = place_fluids(scene, watched, *files);
     if (!particles) return particles.error();
     run->particles_ = std::move(*particles);
     run->fluid_height_ = height_of(run->particles_, run->model_->gravity(), scene.spacing);
-    if (Status status = set_start(scene, *run->model_, run->surroundings(), run->particles_); !status)
+    if (Status status = set_start(scene, *run->model_, run->surroundings(), run->particles_, *files); !status)
         return status.error();
     if (run->body_force_)
         if (Status status = check_body_force(scene, *run->body_force_, run->particles_); !status) return status.error();

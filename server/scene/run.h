@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,9 +23,10 @@ inline constexpr std::size_t kMostObjects = 1'000;
 class Run {
   public:
     // Validates the scene's meaning (values, overlaps with the model's table, counts) and builds it: samples the
-    // fluids, makes the model, computes the first densities and forces. Errors: scene_invalid, parameter_not_found with
-    // the JSON path below "scene"; cancelled.
-    static proto::Result<std::unique_ptr<Run>> build(const proto::SceneDesc& scene, BuildControl* control = nullptr);
+    // fluids or reads them from files below `data_folder`, makes the model, computes the first densities and forces.
+    // Errors: scene_invalid, parameter_not_found with the JSON path below "scene"; cancelled.
+    static proto::Result<std::unique_ptr<Run>> build(const proto::SceneDesc& scene, BuildControl* control = nullptr,
+                                                     const std::filesystem::path& data_folder = {});
 
     // One step of the model. Precondition: no fault so far.
     const solver::StepReport& step();

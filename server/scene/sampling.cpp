@@ -44,15 +44,17 @@ void for_each_lattice_point(const proto::ShapeDesc& shape, int dimensions, doubl
 }
 
 std::int64_t count_particles(const proto::FluidDesc& fluid, int dimensions, double spacing) {
+    if (fluid.particles) return 0;
     if (std::holds_alternative<proto::BoxDesc>(fluid.shape)) return lattice_size(fluid.shape, dimensions, spacing);
     std::int64_t count = 0;
     for_each_lattice_point(fluid.shape, dimensions, spacing, [&](const proto::Vec3&) { return ++count, true; });
     return count;
 }
 
-std::int64_t count_particles(const proto::SceneDesc& scene) {
+std::int64_t count_particles(const proto::SceneDesc& scene, const FluidFiles& files) {
     std::int64_t count = 0;
     for (const proto::FluidDesc& fluid : scene.fluids) count += count_particles(fluid, scene.dimensions, scene.spacing);
+    for (const auto& [fluid, set] : files) count += static_cast<std::int64_t>(set.x.size());
     return count;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "proto/scene_desc.h"
+#include "server/scene/particle_file.h"
 
 namespace headrace::scene {
 
@@ -17,7 +18,8 @@ void for_each_lattice_point(const proto::ShapeDesc& shape, int dimensions, doubl
                             const std::function<bool(const proto::Vec3&)>& visit);
 
 // How many particles a fluid, all fluids of a scene give, without making them.
+// Fluids of files that are not among `files` count as none.
 std::int64_t count_particles(const proto::FluidDesc& fluid, int dimensions, double spacing);
-std::int64_t count_particles(const proto::SceneDesc& scene);
+std::int64_t count_particles(const proto::SceneDesc& scene, const FluidFiles& files = {});
 
 }  // namespace headrace::scene

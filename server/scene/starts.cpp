@@ -30,12 +30,17 @@ Vec3 place(const solver::Particles& particles, std::size_t slot) {
 }
 
 // Slots of the particles of each fluid; a model may have sorted them, ids tell.
-std::vector<std::vector<std::size_t>> slots_of_fluids(const proto::SceneDesc& scene,
-                                                      const solver::Particles& particles) {
+std::vector<std::vector<std::size_t>> slots_of_fluids(const proto::SceneDesc& scene, const solver::Particles& particles,
+                                                      const FluidFiles& files) {
     std::vector<std::size_t> ends;  // first id behind each fluid
-    for (const proto::FluidDesc& fluid : scene.fluids)
-        ends.push_back((ends.empty() ? 0 : ends.back()) +
-                       static_cast<std::size_t>(count_particles(fluid, scene.dimensions, scene.spacing)));
+    for (std::size_t k = 0; k < scene.fluids.size(); ++k) {
+        const auto file = files.find(k);
+        const std::size_t count =
+            file != files.end()
+                ? file->second.x.size()
+                : static_cast<std::size_t>(count_particles(scene.fluids[k], scene.dimensions, scene.spacing));
+        ends.push_back((ends.empty() ? 0 : ends.back()) + count);
+    }
     std::vector<std::vector<std::size_t>> slots(scene.fluids.size());
     for (std::size_t slot = 0; slot < particles.size(); ++slot) {
         const auto fluid = std::upper_bound(ends.begin(), ends.end(), particles.id[slot]) - ends.begin();
@@ -58,6 +63,15 @@ Status fill(std::vector<double>& field, const std::vector<std::size_t>& slots, c
                          "is " + value_at_text(field[slot], place(particles, slot), particles.dimensions), path,
                          "the expression must be finite in the whole fluid"};
     return Done{};
+}
+
+// field[slot] = value(place of the slot's particle in its file). Ids of a fluid are consecutive, in the file's order.
+template <class Value>
+void take_values(std::vector<double>& field, const std::vector<std::size_t>& slots, const solver::Particles& particles,
+                 const Value& value) {
+    solver::Index first = std::numeric_limits<solver::Index>::max();
+    for (const std::size_t slot : slots) first = std::min(first, particles.id[slot]);
+    for (const std::size_t slot : slots) field[slot] = value(particles.id[slot] - first);
 }
 
 void fill_hydrostatic(const proto::FluidDesc& fluid, const std::vector<std::size_t>& slots, const solver::Model& model,
@@ -83,16 +97,17 @@ double uniform_random(std::uint64_t seed, std::uint64_t counter) {
     return static_cast<double>(z >> 11) * 0x1.0p-53;
 }
 
-Result<solver::Particles> place_fluids(const proto::SceneDesc& scene, BuildControl& control) {
-    const auto count = static_cast<std::size_t>(count_particles(scene));
+Result<solver::Particles> place_fluids(const proto::SceneDesc& scene, BuildControl& control, const FluidFiles& files) {
+    const auto count = static_cast<std::size_t>(count_particles(scene, files));
     solver::Particles particles;
     particles.dimensions = scene.dimensions;
     particles.resize(count);
     std::size_t slot = 0;
-    for (const proto::FluidDesc& fluid : scene.fluids) {
+    for (std::size_t fluid_number = 0; fluid_number < scene.fluids.size(); ++fluid_number) {
+        const proto::FluidDesc& fluid = scene.fluids[fluid_number];
         const double reach = fluid.start.jitter * scene.spacing;
         const auto seed = static_cast<std::uint64_t>(fluid.start.seed);
-        for_each_lattice_point(fluid.shape, scene.dimensions, scene.spacing, [&](const Vec3& x) {
+        const auto put = [&](const Vec3& x) {
             for (int k = 0; k < scene.dimensions; ++k) {
                 const double random = reach == 0.0 ? 0.0 : 2.0 * uniform_random(seed, 3 * slot + k) - 1.0;
                 particles.x[k][slot] = x[k] + reach * random;
@@ -102,15 +117,19 @@ Result<solver::Particles> place_fluids(const proto::SceneDesc& scene, BuildContr
             if (slot % 65'536 == 0)
                 control.progress = 0.4 + 0.3 * static_cast<double>(slot) / static_cast<double>(count);
             return !control.cancelled;
-        });
+        };
+        if (const auto file = files.find(fluid_number); file != files.end())
+            std::all_of(file->second.x.begin(), file->second.x.end(), put);
+        else
+            for_each_lattice_point(fluid.shape, scene.dimensions, scene.spacing, put);
     }
     if (control.cancelled) return cancelled_error();
     return particles;
 }
 
 Status set_start(const proto::SceneDesc& scene, solver::Model& model, const solver::Surroundings& surroundings,
-                 solver::Particles& particles) {
-    std::vector<std::vector<std::size_t>> slots = slots_of_fluids(scene, particles);
+                 solver::Particles& particles, const FluidFiles& files) {
+    std::vector<std::vector<std::size_t>> slots = slots_of_fluids(scene, particles, files);
     std::vector<bool> spread(particles.size(), false);
     bool any_relaxed = false;
     for (std::size_t k = 0; k < scene.fluids.size(); ++k) {
@@ -120,7 +139,7 @@ Status set_start(const proto::SceneDesc& scene, solver::Model& model, const solv
     }
     if (any_relaxed) {
         model.relax(particles, surroundings, spread);
-        slots = slots_of_fluids(scene, particles);
+        slots = slots_of_fluids(scene, particles, files);
     }
 
     const Symbols symbols{.dimensions = scene.dimensions, .spacing = scene.spacing, .position = true};
@@ -135,6 +154,11 @@ Status set_start(const proto::SceneDesc& scene, solver::Model& model, const solv
                 !status)
                 return status;
     }
+    for (const auto& [fluid, set] : files)
+        if (!set.v.empty())
+            for (int axis = 0; axis < scene.dimensions; ++axis)
+                take_values(particles.v[axis], slots[fluid], particles,
+                            [&set = set, axis](std::size_t k) { return set.v[k][axis]; });
     model.prepare(particles, surroundings);
     for (std::size_t k = 0; k < scene.fluids.size(); ++k) {
         const proto::FluidDesc& fluid = scene.fluids[k];
@@ -146,6 +170,9 @@ Status set_start(const proto::SceneDesc& scene, solver::Model& model, const solv
         if (Status status = fill(particles.p, slots[k], particles, *pressure, path + ".pressure"); !status)
             return status;
     }
+    for (const auto& [fluid, set] : files)
+        if (!set.p.empty())
+            take_values(particles.p, slots[fluid], particles, [&set = set](std::size_t k) { return set.p[k]; });
     return Done{};
 }
 

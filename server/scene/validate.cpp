@@ -134,10 +134,11 @@ Status validate_fluids(const proto::SceneDesc& scene) {
         const std::string path = indexed("fluids", k);
         if (!names.insert(fluid.name).second)
             return invalid(path + ".name", "there is a fluid \"" + fluid.name + "\" already", "names are unique");
+        if (Status status = validate_fluid_start(fluid, path); !status) return status;
+        if (fluid.particles) continue;
         if (Status status = validate_shape(fluid.shape, scene.dimensions, path + ".shape"); !status) return status;
         if (!is_finite(bounding_box(fluid.shape), scene.dimensions))
             return invalid(path + ".shape", "has no end", "intersect the plane with a shape that has one");
-        if (Status status = validate_fluid_start(fluid, path); !status) return status;
         if (Status status = validate_period(scene, fluid, path); !status) return status;
         const std::int64_t cells = lattice_size(fluid.shape, scene.dimensions, scene.spacing);
         if (cells == 0)
@@ -188,7 +189,7 @@ Status check_place(const proto::SceneDesc& scene, const std::vector<std::optiona
 }
 
 // A start inside an obstacle or outside a container would be a violent projection at the first step.
-Status validate_start(const proto::SceneDesc& scene, BuildControl& control) {
+Status validate_start(const proto::SceneDesc& scene, BuildControl& control, const FluidFiles& files) {
     std::vector<std::optional<solver::RigidState>> states(scene.objects.size());  // of the moving objects
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
         auto object = make_collision_object(scene.objects[k], scene.dimensions, scene.spacing, indexed("objects", k));
@@ -197,15 +198,22 @@ Status validate_start(const proto::SceneDesc& scene, BuildControl& control) {
     }
     for (std::size_t k = 0; k < scene.fluids.size(); ++k) {
         Status outcome = Done{};
-        const std::string path = indexed("fluids", k) + ".shape";
-        const std::int64_t cells = lattice_size(scene.fluids[k].shape, scene.dimensions, scene.spacing);
+        const auto file = files.find(k);
+        const bool is_file = file != files.end();
+        const std::string path = indexed("fluids", k) + (is_file ? ".particles" : ".shape");
+        const std::int64_t cells = is_file ? static_cast<std::int64_t>(file->second.x.size())
+                                           : lattice_size(scene.fluids[k].shape, scene.dimensions, scene.spacing);
         std::int64_t points = 0;
-        for_each_lattice_point(scene.fluids[k].shape, scene.dimensions, scene.spacing, [&](const proto::Vec3& x) {
+        const auto check = [&](const proto::Vec3& x) {
             ++points;
             if (points % 65'536 == 0) control.progress = 0.4 * static_cast<double>(points) / static_cast<double>(cells);
             outcome = check_place(scene, states, x, path);
             return outcome.ok() && !control.cancelled;
-        });
+        };
+        if (is_file)
+            std::all_of(file->second.x.begin(), file->second.x.end(), check);
+        else
+            for_each_lattice_point(scene.fluids[k].shape, scene.dimensions, scene.spacing, check);
         if (control.cancelled) return cancelled_error();
         if (!outcome) return outcome;
         if (points == 0) return invalid(path, "holds no particle", "enlarge it or reduce scene.spacing");
@@ -230,11 +238,11 @@ proto::Error cancelled_error() {
     return {ErrorCode::cancelled, "loading was cancelled", "", "load it again"};
 }
 
-proto::Status validate(const proto::SceneDesc& scene, BuildControl& control) {
+proto::Status validate(const proto::SceneDesc& scene, BuildControl& control, const FluidFiles& files) {
     for (const auto& check :
          {validate_basics, validate_parameters, validate_objects, validate_fluids, validate_formulas})
         if (Status status = check(scene); !status) return status;
-    return validate_start(scene, control);
+    return validate_start(scene, control, files);
 }
 
 }  // namespace headrace::scene

@@ -9,6 +9,7 @@
 #include "proto/result.h"
 #include "proto/scene_desc.h"
 #include "server/scene/build_control.h"
+#include "server/scene/particle_file.h"
 #include "server/solver/parameters.h"
 
 namespace headrace::scene {
@@ -16,7 +17,7 @@ namespace headrace::scene {
 inline constexpr std::int64_t kMostParticles = 50'000'000;  // 200 bytes each: 10 GB
 
 // Errors: scene_invalid, parameter_not_found, limit_exceeded with a path that starts with "scene"; cancelled.
-proto::Status validate(const proto::SceneDesc& scene, BuildControl& control);
+proto::Status validate(const proto::SceneDesc& scene, BuildControl& control, const FluidFiles& files = {});
 
 proto::Error cancelled_error();
 

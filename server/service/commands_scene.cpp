@@ -58,14 +58,15 @@ Result<proto::SceneListReply> list_scenes() {
 }  // namespace
 
 void add_scene_commands(CommandTable& table, CommandContext& context) {
-    table.add<proto::SceneLoad>("scene.load",
-                                {{ErrorCode::scene_not_found, ErrorCode::scene_invalid, ErrorCode::parameter_not_found,
-                                  ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}},
-                                [&context](proto::SceneLoad params, Responder& responder) {
-                                    Result<proto::SceneDesc> scene = resolve_scene(params);
-                                    if (!scene) return responder.fail(scene.error());
-                                    post_mutation(context, proto::SceneLoad{std::move(*scene), {}}, responder);
-                                });
+    table.add<proto::SceneLoad>(
+        "scene.load",
+        {{ErrorCode::scene_not_found, ErrorCode::scene_invalid, ErrorCode::parameter_not_found, ErrorCode::file_error,
+          ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}},
+        [&context](proto::SceneLoad params, Responder& responder) {
+            Result<proto::SceneDesc> scene = resolve_scene(params);
+            if (!scene) return responder.fail(scene.error());
+            post_mutation(context, proto::SceneLoad{std::move(*scene), {}}, responder);
+        });
     table.add_query<proto::SceneGet, proto::SceneDesc>("scene.get", {{ErrorCode::wrong_state, ErrorCode::busy}},
                                                        [&context](const proto::SceneGet&) -> Result<proto::SceneDesc> {
                                                            const auto snapshot = context.board.read();

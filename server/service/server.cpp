@@ -100,11 +100,11 @@ struct Server::Impl {
           session_number(new_session()),
           session(session_text(session_number)),
           threads(options.threads > 0 ? options.threads : omp_get_max_threads()),
+          data_folder(checked_folder(options.data_folder)),
           zmq(kIoThreads),
           socket(make_command_socket(zmq, endpoints.control)),
-          simulation({threads}, outbox, events, jobs, board, probes, hub),
-          publisher(zmq, publisher_options(endpoints, checked_folder(options.data_folder), session_number), hub, events,
-                    board, probes, outbox),
+          simulation({threads, data_folder}, outbox, events, jobs, board, probes, hub),
+          publisher(zmq, publisher_options(endpoints, data_folder, session_number), hub, events, board, probes, outbox),
           context(make_context()),
           table([this] { return board.read()->status.state; }, [this](const CallReport& call) { log_call(call); }) {
         hub.set_waker([this] { simulation.wake(); });
@@ -237,6 +237,7 @@ struct Server::Impl {
     std::uint64_t session_number;
     std::string session;
     int threads;
+    fs::path data_folder;
     zmq::context_t zmq;
     Doorbell events_bell, stop_bell, ended_bell;
     Outbox outbox;

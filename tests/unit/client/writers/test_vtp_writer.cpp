@@ -231,7 +231,8 @@ TEST_CASE("Writers.UnknownFormatIsRefusedWithAHint") {
     REQUIRE_FALSE(writer.ok());
     CHECK(writer.error().code == proto::ErrorCode::invalid_params);
     CHECK(writer.error().hint.find("vtp") != std::string::npos);
-    for (const std::string& format : client::writer_formats()) CHECK(make_writer(format, options_in(folder)).ok());
+    for (const client::FormatInfo& format : client::writer_formats())
+        CHECK(make_writer(format.name, options_in(folder)).ok());
 }
 
 TEST_CASE("Writers.UnwritableFolderIsAFileError") {

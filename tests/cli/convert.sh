@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# `headrace convert`: selections, jobs and errors. What it wrote of one recording stays in RESULTS/convert for other
+# programs' readers.
+# usage: convert.sh HEADRACED HEADRACE ROOT [RESULTS]
+. "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+results=${4:-}
+
+cd "$work" || exit 1
+cat >flat.json <<'JSON'
+{"headrace_scene": 1, "name": "flat", "dimensions": 2, "model": "wcsph", "spacing": 0.02,
+ "parameters": {"gravity": [0, -9.81]},
+ "domain": {"min": [-0.1, -0.1], "max": [0.5, 0.5]},
+ "fluids": [{"name": "block", "shape": {"box": {"min": [0, 0], "max": [0.2, 0.2]}}}],
+ "objects": [{"name": "tank", "role": "container", "shape": {"box": {"min": [0, 0], "max": [0.4, 0.4]}}}],
+ "output": {"interval": 0.01, "fields": ["id", "position", "velocity", "density", "pressure"]}}
+JSON
+"$headrace" run flat.json --until 0.1 --out . --format '' >run.txt 2>&1 || fail "run: $(cat run.txt)"
+convert() { "$headrace" convert flat.mcap "$@"; }
+
+formats=vtp,csv,csv-long,npz,ply
+expect_result 0 'open all/flat\.pvd in ParaView' convert --format $formats --out all
+for ending in vtp csv npz ply; do
+    [ "$(find all -name "flat_[0-9]*.$ending" | wc -l)" = 11 ] || fail "not 11 files .$ending: $(ls all)"
+done
+
+# The files do not depend on the number of jobs, pictures included.
+for jobs in 1 3; do convert --format $formats,png --size 320x240 --jobs $jobs --out jobs$jobs >notes 2>&1 || fail "$(cat notes)"; done
+diff -r jobs1 jobs3 || fail "1 and 3 jobs write different files"
+find . -name '*.part' | grep -q . && fail "temporary files are left"
+
+# Some particles, some fields, some frames.
+expect_result 0 '3 files part/flat_\*\.csv.*' convert --format csv --out part --fields id,density --region 0,0,0.1,0.05 \
+    --from 0.015 --to 0.065 --every 2
+head -n 1 part/flat_000000.csv | grep -qx 'id,density \[kg/m^3\]' || fail "fields: $(head -n 1 part/flat_000000.csv)"
+rows=$(($(wc -l <part/flat_000000.csv) - 1))
+[ "$rows" -gt 5 ] && [ "$rows" -lt 20 ] || fail "$rows particles of about 12 are in the region"
+
+# What leaves nothing is said, and no file is written.
+expect 2 'error usage \(--fields\): there is no field acceleration; the recording holds id, position, .*' \
+    convert --format csv --out none --fields acceleration
+expect 2 'error usage (.*): did you mean "velocity"\?' convert --format csv --out none --fields velocty
+expect 2 'error usage \(--region\): no particle is ever inside; .*' convert --format csv --out none --region 5,5,6,6
+expect 2 'error usage \(--region\): the second corner .*' convert --format csv --out none --region 1,1,0,0
+expect 6 'error file_error (.*): no frame in the range asked for; its frames are from t 0 s to .*' \
+    convert --format csv --out none --from 7
+expect 2 'error usage \(--to\): the range ends before it begins; .*' convert --format csv --out none --from 2 --to 1
+expect 2 'error usage \(--format\): did you mean "npz"\?' convert --format npx --out none
+expect 2 'error usage \(--format\): png files need the field acceleration; .*' \
+    convert --format png --color-by acceleration --out none
+[ ! -e none ] || fail "a refused conversion left $(ls none)"
+mkdir taken
+mkdir taken/flat_long.csv
+expect 6 '(.*)error file_error (.*): cannot write .*flat_long\.csv.*' convert --format csv-long --out taken
+[ -z "$(find taken -type f)" ] || fail "a failed conversion left $(find taken -type f)"
+
+if [ -n "$results" ]; then
+    rm -rf "$results/convert"
+    mkdir -p "$results"
+    cp -r all "$results/convert"
+fi
