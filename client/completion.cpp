@@ -7,6 +7,7 @@
 #include "client/call.h"
 #include "client/endpoints.h"
 #include "client/help_topics.h"
+#include "client/writers/palette.h"
 #include "client/writers/writer.h"
 #include "proto/event_types.h"
 #include "proto/fields.h"
@@ -47,7 +48,9 @@ constexpr WordKind kWordKinds[] = {
     {"", "--shape", "file"},
     {"", "--motion", "file"},
     {"", "--fields", "field"},
-    {"", "--field", "field"},
+    {"", "--color-by", "field"},
+    {"", "--palette", "palette"},
+    {"", "--view", "view"},
     {"", "--format", "format"},
     {"", "--precision", "precision"},
     {"call", "METHOD", "method"},
@@ -102,7 +105,11 @@ std::vector<Candidate> names_of(std::string_view kind, const CLI::App& app, cons
     } else if (kind == "field") {
         for (const proto::FieldInfo& info : proto::kFields) names.push_back({std::string(info.name), ""});
     } else if (kind == "format") {
-        for (const std::string& format : writer_formats()) names.push_back({format, ""});
+        for (const FormatInfo& format : writer_formats()) names.push_back({std::string(format.name), ""});
+    } else if (kind == "palette") {
+        for (const std::string_view palette : kPaletteNames) names.push_back({std::string(palette), ""});
+    } else if (kind == "view") {
+        for (const std::string_view view : kViewNames) names.push_back({std::string(view), ""});
     } else if (kind == "precision") {
         names = {{"f4", "single"}, {"f8", "double"}};
     } else if (kind == "command") {

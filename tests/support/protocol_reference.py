@@ -174,6 +174,8 @@ def reference(document):
 
 
 def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__.strip())
     headraced, headrace, repository = sys.argv[1:4]
     with private_server(headraced) as server:
         document = json.loads(subprocess.run([headrace, "--server", server["control"], "call", "describe"], check=True,
