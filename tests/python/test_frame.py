@@ -124,7 +124,7 @@ def test_the_plain_example_repeats_the_same_tables() -> None:
 
 
 def test_each_error_of_the_protocol_has_its_class() -> None:
-    text = (ROOT / "proto" / "README.md").read_text()
+    text = (ROOT / "proto" / "reference.md").read_text()
     table = re.findall(r"^\| `(\w+)` \| -32\d+ \| \d \|", text, re.MULTILINE)
     assert len(table) > 20 and sorted(CLASSES) == sorted(table)
     for name, kind in CLASSES.items():

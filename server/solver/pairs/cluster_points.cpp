@@ -33,8 +33,9 @@ void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size
     reference_.resize(clusters());
     boxes_.resize(clusters());
     start_.resize(moves ? clusters() * static_cast<std::size_t>(dimensions) * kClusterSize : 0);
-    motion_.resize((clusters() + kMotionBlock - 1) / kMotionBlock);
+    motion_.assign((clusters() + kMotionBlock - 1) / kMotionBlock, MotionBox{});
     settled_.assign(motion_.size(), MotionBox{});
+    total_ = settled_;
     pack<true>(x, V);
 }
 
@@ -53,20 +54,8 @@ void ClusterPoints<S>::settle() {
                 start_[c * places + l] = static_cast<float>(records_[c * stride_ + l]);
         }
     });
-    settled_ = total_motion();
+    settled_ = total_;
     motion_.assign(motion_.size(), MotionBox{});
-}
-
-template <class S>
-std::vector<MotionBox> ClusterPoints<S>::total_motion() const {
-    std::vector<MotionBox> total = settled_;
-    for (std::size_t b = 0; b < total.size(); ++b) {
-        for (int k = 0; k < 3; ++k) {
-            total[b].low[k] += motion_[b].low[k];
-            total[b].high[k] += motion_[b].high[k];
-        }
-    }
-    return total;
 }
 
 template <class S>
@@ -115,7 +104,14 @@ void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
             V.read(begin, in_cluster, volumes.data());
             for (std::size_t l = 0; l < kClusterSize; ++l) record[l] = static_cast<S>(volumes[l]);
         }
-        motion_[first / kMotionBlock] = IsStart ? MotionBox{} : box;
+        if constexpr (!IsStart) {
+            const std::size_t block = first / kMotionBlock;
+            motion_[block] = box;
+            for (int k = 0; k < 3; ++k) {
+                total_[block].low[k] = settled_[block].low[k] + box.low[k];
+                total_[block].high[k] = settled_[block].high[k] + box.high[k];
+            }
+        }
     });
 }
 

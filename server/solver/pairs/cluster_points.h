@@ -62,7 +62,8 @@ class ClusterPoints {
     // Per block of clusters, since start() or settle().
     const std::vector<MotionBox>& motion() const { return motion_; }
     // Since start(): bounds, the sum of those between one settle() and the next.
-    std::vector<MotionBox> total_motion() const;
+    const std::vector<MotionBox>& total_motion() const { return total_; }
+    bool moves() const { return start_.size() > 0; }  // if not, all motion is 0
 
   private:
     template <bool IsStart>
@@ -76,7 +77,7 @@ class ClusterPoints {
     std::vector<std::array<std::int32_t, 3>> reference_;
     std::vector<ClusterBox> boxes_;
     AlignedArray<float> start_;  // [clusters][D][4] relative places that motion_ counts from; empty where none moves
-    std::vector<MotionBox> motion_, settled_;
+    std::vector<MotionBox> motion_, settled_, total_;
 };
 
 extern template class ClusterPoints<float>;

@@ -40,17 +40,20 @@ MotionBox join(const std::vector<MotionBox>& boxes, MotionBox all) {
 // Motion of the blocks of two kinds of points against each other.
 class RelativeMotion {
   public:
-    RelativeMotion(std::vector<MotionBox> centres, std::vector<MotionBox> neighbours)
-        : centres_(std::move(centres)), neighbours_(std::move(neighbours)) {
-        const MotionBox all = join(neighbours_, join(centres_, centres_.front()));
-        largest2_ = difference2(all, all);
-        for (int k = 0; k < 3; ++k) middle_[k] = 0.5f * (all.low[k] + all.high[k]);
+    RelativeMotion(const std::vector<MotionBox>& centres, const std::vector<MotionBox>& neighbours,
+                   bool neighbours_move)
+        : centres_(centres), neighbours_(neighbours) {
+        all_ = join(centres_, centres_.front());
+        all_ = neighbours_move ? join(neighbours_, all_) : join({MotionBox{}}, all_);
+    }
+
+    double largest2() const { return difference2(all_, all_); }  // of any block against any
+
+    // Before is_longer(): the radii about the middle of all motion, which decide most cases.
+    void measure_radii() {
         centre_radii_ = radii(centres_);
         neighbour_radii_ = radii(neighbours_);
     }
-
-    double largest2() const { return largest2_; }  // of any block against any
-    // The radii about the middle of all motion decide most cases.
     bool is_longer(std::size_t centre, std::size_t neighbour, double way) const {
         if (centre_radii_[centre] + neighbour_radii_[neighbour] < static_cast<float>(way)) return false;
         return difference2(centres_[centre], neighbours_[neighbour]) > way * way;
@@ -63,7 +66,8 @@ class RelativeMotion {
         for (std::size_t b = 0; b < boxes.size(); ++b) {
             float sum = 0.0f;
             for (int k = 0; k < 3; ++k) {
-                const float longest = std::max(boxes[b].high[k] - middle_[k], middle_[k] - boxes[b].low[k]);
+                const float middle = 0.5f * (all_.low[k] + all_.high[k]);
+                const float longest = std::max(boxes[b].high[k] - middle, middle - boxes[b].low[k]);
                 sum += longest * longest;
             }
             radii[b] = std::sqrt(sum) * kRoundedUp;
@@ -71,10 +75,9 @@ class RelativeMotion {
         return radii;
     }
 
-    std::vector<MotionBox> centres_, neighbours_;
+    const std::vector<MotionBox>&centres_, &neighbours_;
+    MotionBox all_;
     std::vector<float> centre_radii_, neighbour_radii_;
-    std::array<float, 3> middle_{};
-    double largest2_{};
 };
 
 }  // namespace
@@ -270,10 +273,14 @@ void PairList<S>::prune(const ClusterPoints<S>& centres, const ClusterPoints<S>&
 template <class S>
 Coverage PairList<S>::coverage(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const {
     if (centres.motion().empty() || neighbours.motion().empty()) return Coverage::whole;
-    const RelativeMotion total(centres.total_motion(), neighbours.total_motion());
+    RelativeMotion total(centres.total_motion(), neighbours.total_motion(), neighbours.moves());
     if (!(total.largest2() <= (skin_ + far_skin_) * (skin_ + far_skin_))) return Coverage::lost;
-    const RelativeMotion recent(centres.motion(), neighbours.motion());
+    RelativeMotion recent(centres.motion(), neighbours.motion(), neighbours.moves());
     if (total.largest2() <= skin_ * skin_ && recent.largest2() <= inner_skin_ * inner_skin_) return Coverage::whole;
+    if (std::all_of(blocks_.begin(), blocks_.end(), [](const PairBlock<S>& block) { return block.nearby.empty(); }))
+        return Coverage::whole;
+    total.measure_radii();
+    recent.measure_radii();
     return parallel_reduce(
         blocks_.size(), Coverage::whole,
         [&](std::size_t first, std::size_t last) {
