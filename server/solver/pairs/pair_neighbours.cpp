@@ -44,7 +44,8 @@ void PairNeighboursOf<S>::prune() {
 template <class S>
 bool PairNeighboursOf<S>::keep_whole() {
     Coverage coverage = among_fluid_.coverage(fluid_, fluid_);
-    if (has_walls()) coverage = std::min(coverage, fluid_to_wall_.coverage(fluid_, walls_));
+    if (has_walls() && coverage != Coverage::lost)
+        coverage = std::min(coverage, fluid_to_wall_.coverage(fluid_, walls_));
     if (coverage == Coverage::listed) prune();
     return coverage != Coverage::lost;
 }
