@@ -15,14 +15,16 @@ constexpr std::size_t kShades = 1024;  // finer than 8 bits a channel can show
 
 }  // namespace
 
-SceneRenderer::SceneRenderer(const proto::SceneDesc& scene, const ColorScale& colors, int width, int height,
-                             const Viewport& viewport, const ViewOptions& view)
+SceneRenderer::SceneRenderer(const proto::SceneDesc& scene, const Stage& stage, const ColorScale& colors, int width,
+                             int height, const Viewport& viewport, const ViewOptions& view)
     : dimensions_(scene.dimensions),
       radius_(particle_radius(scene)),
+      stage_(stage),
       colors_(colors),
       width_(width),
       height_(height),
-      camera_(make_camera(scene, view, viewport)) {
+      camera_(make_camera(scene, stage, view, viewport)),
+      clip_(clip_of(stage, view, camera_, viewport)) {
     for (std::size_t k = 0; k < kShades; ++k)
         palette_.push_back(palette_color(static_cast<double>(k) / (kShades - 1), colors.palette));
 }
@@ -36,7 +38,7 @@ Raster SceneRenderer::borrow_raster() const {
             return raster;
         }
     }
-    return {width_, height_, camera_};
+    return {width_, height_, camera_, clip_};
 }
 
 void SceneRenderer::give_back(Raster raster) const {
@@ -59,7 +61,7 @@ std::vector<std::size_t> SceneRenderer::front_to_back(std::span<const Vec3> posi
 }
 
 Image SceneRenderer::draw(std::span<const Vec3> positions, std::span<const float> values,
-                          const std::vector<proto::ObjectDesc>& objects) const {
+                          const std::vector<PlacedObject>& objects) const {
     Raster raster = borrow_raster();
     raster.clear(kPaper);
     const double per_value = (kShades - 1) / (colors_.max - colors_.min);
@@ -69,9 +71,9 @@ Image SceneRenderer::draw(std::span<const Vec3> positions, std::span<const float
                         std::isnan(values[k]) ? kNotANumber : palette_[static_cast<std::size_t>(shade + 0.5)]);
     }
     if (dimensions_ == 2)
-        draw_flat_objects(raster, objects, 2 * radius_);
+        draw_flat_objects(raster, objects, stage_, 2 * radius_);
     else
-        draw_objects(raster, objects);
+        draw_objects(raster, objects, stage_);
 
     Image image(width_, height_, kPaper);
     raster.resolve(image);
