@@ -102,7 +102,7 @@ void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, d
     show_text(canvas, box.left, box.top - 13 * scale, legend);
 }
 
-bool draw_ruler(Image& image, const Camera& camera, const Vec3& from, const Vec3& to, double scale) {
+bool draw_ruler(Image& image, const Camera& camera, const Vec3& from, const Vec3& to, double room, double scale) {
     const double whole = length(to - from), round = rounded_down(whole / 3);
     const Vec3 end = from + (round / whole) * (to - from);
     const Projected a = camera.project(from), b = camera.project(end);
@@ -111,7 +111,7 @@ bool draw_ruler(Image& image, const Camera& camera, const Vec3& from, const Vec3
     // Across the line, downwards.
     double across_x = -(b.y - a.y) / span, across_y = (b.x - a.x) / span;
     if (across_y < 0) across_x = -across_x, across_y = -across_y;
-    const double gap = 11 * scale, tick = 4 * scale;
+    const double gap = 11 * scale + room * camera.pixels_per_metre(a.nearness), tick = 4 * scale;
     const auto at = [&](const Projected& p, double offset) {
         return std::pair{p.x + offset * across_x, p.y + offset * across_y};
     };
@@ -139,14 +139,14 @@ bool draw_ruler(Image& image, const Camera& camera, const Vec3& from, const Vec3
 
 void draw_axes(Image& image, const Camera& camera, double x, double y, double scale) {
     const Canvas canvas(image);
-    select_font(canvas, 13 * scale, Weight::normal);
+    select_font(canvas, 12 * scale, Weight::normal);
     cairo_set_line_width(canvas(), 1.5 * scale);
     for (std::size_t k = 0; k < 3; ++k) {
         Vec3 axis{};
         axis[k] = 1;
         const double dx = dot(axis, camera.right()), dy = -dot(axis, camera.up()), seen = std::hypot(dx, dy);
         if (seen < 0.05) continue;  // towards the viewer
-        const double arrow = 30 * scale, ux = dx / seen, uy = dy / seen, head = 6 * scale;
+        const double arrow = 22 * scale, ux = dx / seen, uy = dy / seen, head = 6 * scale;
         const double tip_x = x + arrow * dx, tip_y = y + arrow * dy;
         canvas.set_color(kInk);
         cairo_move_to(canvas(), x, y);

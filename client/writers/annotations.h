@@ -25,8 +25,8 @@ void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, d
 void draw_scale_bar(Image& image, double x, double y, double pixels_per_metre, double scale);
 
 // The same along a straight line of the scene, seen at any angle: from `from` towards `to` [m], by at most a third of
-// the way, below the line. False, and nothing drawn, where that is not all within the picture.
-bool draw_ruler(Image& image, const Camera& camera, const Vec3& from, const Vec3& to, double scale);
+// the way, `room` [m] and a little below the line. False, and nothing drawn, where that is not all within the picture.
+bool draw_ruler(Image& image, const Camera& camera, const Vec3& from, const Vec3& to, double room, double scale);
 
 // Three arrows from x, y [px] that tell how the axes are seen.
 void draw_axes(Image& image, const Camera& camera, double x, double y, double scale);

@@ -91,11 +91,11 @@ void FramePicture::draw_scale(Image& image, double scale) const {
     if (!camera.is_perspective() && is_along_axis)
         return draw_scale_bar(image, left, low, camera.pixels_per_metre(0), scale);
 
-    draw_axes(image, camera, left + 22 * scale, low - 16 * scale, scale);
+    draw_axes(image, camera, left + 10 * scale, low - 2 * scale, scale);
     const auto [from, to] = front_edge(stage_.bounds, up_axis(options_.scene), camera);
-    if (draw_ruler(image, camera, from, to, scale)) return;
+    if (draw_ruler(image, camera, from, to, particle_radius(options_.scene), scale)) return;
     const Vec3 middle = 0.5 * (stage_.bounds.min + stage_.bounds.max);
-    draw_scale_bar(image, left + 80 * scale, low, camera.pixels_per_metre(camera.project(middle).nearness), scale);
+    draw_scale_bar(image, left + 70 * scale, low, camera.pixels_per_metre(camera.project(middle).nearness), scale);
 }
 
 void FramePicture::annotate(Image& image, const proto::FrameInfo& info) const {

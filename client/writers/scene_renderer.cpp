@@ -11,6 +11,7 @@ namespace headrace::client {
 
 namespace {
 
+constexpr Rgb kFrame{0xB4, 0xBC, 0xC4};
 constexpr std::size_t kShades = 1024;  // finer than 8 bits a channel can show
 
 }  // namespace
@@ -24,6 +25,7 @@ SceneRenderer::SceneRenderer(const proto::SceneDesc& scene, const Stage& stage, 
       width_(width),
       height_(height),
       camera_(make_camera(scene, stage, view, viewport)),
+      is_framed_(stage.is_part && (stage.hides_rest || view.zoom != 1)),
       clip_(clip_of(stage, view, camera_, viewport)) {
     for (std::size_t k = 0; k < kShades; ++k)
         palette_.push_back(palette_color(static_cast<double>(k) / (kShades - 1), colors.palette));
@@ -60,6 +62,17 @@ std::vector<std::size_t> SceneRenderer::front_to_back(std::span<const Vec3> posi
     return order;
 }
 
+void SceneRenderer::draw_frame(Image& image) const {
+    const auto edge = [](double place, int size) { return std::clamp(static_cast<int>(std::lround(place)), 0, size); };
+    const int left = edge(clip_->left, width_), right = edge(clip_->left + clip_->width, width_);
+    const int top = edge(clip_->top, height_), bottom = edge(clip_->top + clip_->height, height_);
+    if (right - left < 2 || bottom - top < 2) return;
+    const std::uint32_t color = Image::packed(kFrame);
+    for (const int y : {top, bottom - 1}) std::fill(image.row(y) + left, image.row(y) + right, color);
+    for (int y = top; y < bottom; ++y)
+        for (const int x : {left, right - 1}) image.row(y)[x] = color;
+}
+
 Image SceneRenderer::draw(std::span<const Vec3> positions, std::span<const float> values,
                           const std::vector<PlacedObject>& objects) const {
     Raster raster = borrow_raster();
@@ -78,6 +91,7 @@ Image SceneRenderer::draw(std::span<const Vec3> positions, std::span<const float
     Image image(width_, height_, kPaper);
     raster.resolve(image);
     give_back(std::move(raster));
+    if (is_framed_) draw_frame(image);
     return image;
 }
 

@@ -30,6 +30,7 @@ class SceneRenderer {
   private:
     Raster borrow_raster() const;
     void give_back(Raster raster) const;
+    void draw_frame(Image& image) const;
     std::vector<std::size_t> front_to_back(std::span<const Vec3> positions) const;
 
     int dimensions_;
@@ -39,6 +40,7 @@ class SceneRenderer {
     std::vector<Rgb> palette_;
     int width_, height_;  // [px]
     Camera camera_;
+    bool is_framed_;  // a part that was asked for: a thin line tells where it ends
     std::optional<Viewport> clip_;
     mutable std::mutex mutex_;          // guards idle_
     mutable std::vector<Raster> idle_;  // at most as many as there were frames in work at a time

@@ -210,10 +210,13 @@ Camera make_camera(const SceneDesc& scene, const Stage& stage, const ViewOptions
 std::optional<Viewport> clip_of(const Stage& stage, const ViewOptions& view, const Camera& camera,
                                 const Viewport& viewport) {
     if (!stage.is_part) return {};
-    // Lines at the edge are as wide as elsewhere.
-    const auto with_edge = [](const Viewport& v) { return Viewport{v.left - 2, v.top - 2, v.width + 4, v.height + 4}; };
-    if (!stage.hides_rest || view.zoom != 1) return with_edge(viewport);
-    return camera.covered(stage.outline);
+    if (view.zoom != 1) return viewport;
+    // Lines at the edge are as wide as elsewhere, and what the stage shows has room for particles that stand at its
+    // edge.
+    const auto grown_by = [](const Viewport& v, double room) {
+        return Viewport{v.left - room, v.top - room, v.width + 2 * room, v.height + 2 * room};
+    };
+    return stage.hides_rest ? grown_by(camera.covered(stage.outline), 2) : grown_by(viewport, 10);
 }
 
 }  // namespace headrace::client
