@@ -1,5 +1,6 @@
 #include "client/writers/annotations.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -62,8 +63,10 @@ std::string typeset_unit(std::string_view unit) {
 BarBox bar_box(int picture_height, int right_edge, double scale) {
     const int width = static_cast<int>(std::lround(18 * scale));
     const int labels = static_cast<int>(std::lround(92 * scale));
-    return {right_edge - width - labels, static_cast<int>(0.24 * picture_height), width,
-            static_cast<int>(0.58 * picture_height)};
+    // In small pictures below the lines of text.
+    const int top = std::max(static_cast<int>(0.24 * picture_height), static_cast<int>(128 * scale));
+    const int height = std::min(static_cast<int>(0.58 * picture_height), picture_height - top - 4);
+    return {right_edge - width - labels, top, width, std::max(height, 2)};
 }
 
 void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, double scale) {

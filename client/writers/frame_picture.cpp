@@ -12,9 +12,10 @@ namespace headrace::client {
 
 namespace {
 
-// Text grows with the picture; 1 at 1280 x 720.
+// Text grows with the picture, 1 at 1280 x 720, and stays readable in small ones as far as there is room.
 double text_scale(const PictureOptions& picture) {
-    return std::min(picture.width / 1280.0, picture.height / 720.0);
+    const double readable = std::min(0.65, picture.width / 490.0);
+    return std::max(readable, std::min(picture.width / 1280.0, picture.height / 720.0));
 }
 
 Viewport scene_viewport(const PictureOptions& picture) {

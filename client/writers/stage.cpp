@@ -212,11 +212,11 @@ std::optional<Viewport> clip_of(const Stage& stage, const ViewOptions& view, con
     if (!stage.is_part) return {};
     if (view.zoom != 1) return viewport;
     // Lines at the edge are as wide as elsewhere, and what the stage shows has room for particles that stand at its
-    // edge.
-    const auto grown_by = [](const Viewport& v, double room) {
-        return Viewport{v.left - room, v.top - room, v.width + 2 * room, v.height + 2 * room};
-    };
-    return stage.hides_rest ? grown_by(camera.covered(stage.outline), 2) : grown_by(viewport, 10);
+    // edge; above there are words.
+    constexpr double kLine = 2, kParticle = 10;  // [px]
+    const double room = stage.hides_rest ? kLine : kParticle;
+    const Viewport v = stage.hides_rest ? camera.covered(stage.outline) : viewport;
+    return Viewport{v.left - room, v.top - kLine, v.width + 2 * room, v.height + kLine + room};
 }
 
 }  // namespace headrace::client
