@@ -45,7 +45,13 @@ int exit_status(const proto::Status& outcome) {
 }
 
 proto::Error parse_error(const CLI::ParseError& error) {
-    return usage_error(error.what(), "", "headrace --help, or headrace COMMAND --help");
+    const std::string said = error.what();
+    // "Could not convert: --fps = abc": only numbers are ever converted.
+    const std::size_t name = said.find("--"), equals = said.find(" = ");
+    if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr && name < equals && equals != std::string::npos)
+        return usage_error("\"" + said.substr(equals + 3) + "\" is no number", said.substr(name, equals - name),
+                           "counts are whole numbers, others may have a fraction: 12.5");
+    return usage_error(said, "", "headrace --help, or headrace COMMAND --help");
 }
 
 // No subcommand was recognised: there was none, or an unknown word stands in its place.

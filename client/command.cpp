@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "client/arguments.h"
 #include "client/endpoints.h"
 
 namespace headrace::client {
@@ -25,6 +26,27 @@ CLI::App* add_command(CLI::App& app, CommandLine& line, const std::string& name,
     CLI::App* subcommand = app.add_subcommand(name, description);
     subcommand->callback([&line, act = std::move(act)] { line.action = [&line, act] { return act(line.globals); }; });
     return subcommand;
+}
+
+namespace {
+
+// The word as it stands, and the numbers wanted.
+template <class Wanted>
+CLI::Validator number_check(const std::string& name, const std::string& what, const Wanted& is_wanted) {
+    return {[what, is_wanted](const std::string& word) {
+                const auto value = parse_number(word);
+                return value && is_wanted(*value) ? std::string() : "\"" + word + "\" is no number " + what;
+            },
+            name};
+}
+
+}  // namespace
+
+CLI::Validator positive() {
+    return number_check("POSITIVE", "above 0", [](double value) { return value > 0; });
+}
+CLI::Validator non_negative() {
+    return number_check("NONNEGATIVE", "of 0 or more", [](double value) { return value >= 0; });
 }
 
 }  // namespace headrace::client

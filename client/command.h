@@ -26,6 +26,10 @@ proto::Result<std::unique_ptr<Connection>> connect(const Globals& globals);
 CLI::App* add_command(CLI::App& app, CommandLine& line, const std::string& name, const std::string& description,
                       std::function<proto::Status(const Globals&)> act);
 
+// Checks of options: their refusals are for people, CLI11's own tell the range of a double with all its digits.
+CLI::Validator positive();
+CLI::Validator non_negative();
+
 // One request: its result as JSON under --json, else as `print` says it.
 template <class Reply, class Print>
 proto::Status request_and_print(const Globals& globals, Connection& connection, std::string_view method,

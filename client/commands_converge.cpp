@@ -205,7 +205,7 @@ void add_converge_command(CLI::App& app, CommandLine& line) {
         ->check(CLI::IsMember({"curve", "last", "mean", "min", "max", "rms"}))
         ->capture_default_str();
     command->add_option("--spacing", words->spacing, "of the coarsest run [m]; default: the scene's")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     command
         ->add_option("--ratio", words->ratio,
                      "of one spacing to the next finer; fitted so that the fluid is filled evenly")
@@ -218,7 +218,7 @@ void add_converge_command(CLI::App& app, CommandLine& line) {
         ->allow_extra_args(false);
     command->add_option("--csv", words->csv, "write the results to this file too, profiles with each of their points");
     command->add_option("--threads", words->threads, "of the solver; default: as many as the machine has")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
 }
 
 }  // namespace headrace::client

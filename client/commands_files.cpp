@@ -12,8 +12,8 @@ namespace {
 
 struct ConvertWords {
     std::string file, formats, out, color_by{"velocity"}, range, size, fields, region, palette{"viridis"},
-        view{"standard"}, camera, target, up;
-    double fps{30};
+        view{"standard"}, camera, target, up, crop{"fluid"};
+    double fps{30}, zoom{1};
     std::optional<double> from, to;
     std::size_t every{1};
     int jobs{0};
@@ -46,7 +46,16 @@ proto::Status take_view(const ConvertWords& words, PictureOptions& picture) {
     };
     if (auto taken = take(words.camera, "--camera", picture.view.position); !taken) return taken;
     if (auto taken = take(words.target, "--target", picture.view.target); !taken) return taken;
-    return take(words.up, "--up", picture.view.up);
+    if (auto taken = take(words.up, "--up", picture.view.up); !taken) return taken;
+    picture.view.zoom = words.zoom;
+    picture.view.whole = words.crop == "scene";
+    if (words.crop == "scene" || words.crop == "fluid") return proto::Done{};
+    auto box = parse_box(words.crop, "--crop");
+    if (!box)
+        return usage_error("\"" + words.crop + "\" is no part of a scene", "--crop",
+                           "fluid, scene, or corners in metres: x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1");
+    picture.view.crop = *box;
+    return proto::Done{};
 }
 
 proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
@@ -181,7 +190,7 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
                           "npz (NumPy), ply (point clouds), png, mp4 (a film, by ffmpeg), pov (POV-Ray)");
     converter->add_option("--out", words->out, "folder of the results")->required();
     converter->add_flag("--probes", words->probes, "a CSV file with the samples of each probe");
-    converter->add_option("--every", words->every, "each so many-th frame")->check(CLI::PositiveNumber);
+    converter->add_option("--every", words->every, "each so many-th frame")->check(positive());
     converter->add_option("--from", words->from, "first time [s]");
     converter->add_option("--to", words->to, "last time [s]");
     converter->add_option("--fields", words->fields, "which of the recorded fields, with commas; pictures take theirs");
@@ -197,11 +206,18 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
     converter->add_option("--camera", words->camera, "pictures in 3D: the eye's place x,y,z [m] instead of a view");
     converter->add_option("--target", words->target, "the point x,y,z that the eye looks at [m]; default: the middle");
     converter->add_option("--up", words->up, "upwards for the eye, x,y,z; default: against gravity");
+    converter
+        ->add_option("--crop", words->crop,
+                     "pictures: what fills them, the same for all frames: fluid (what it reaches over the recording), "
+                     "scene (all), or x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1 [m]")
+        ->capture_default_str();
+    converter->add_option("--zoom", words->zoom, "pictures: so many times as large, about the middle or --target")
+        ->capture_default_str();
     converter->add_option("--fps", words->fps, "films: frames a second")->capture_default_str();
     converter->add_option("--range", words->range, "pictures: ends of the colour scale, low:high");
     converter->add_option("--size", words->size, "pictures: WIDTHxHEIGHT in pixels");
     converter->add_option("--sheet", words->sheet, "pictures: how many on the contact sheet; 0: no sheet")
-        ->check(CLI::Range(0, 1'000));
+        ->check(CLI::Range(0, 400));
     converter->add_flag("--sheet-only", words->sheet_only, "pictures: the contact sheet alone");
 
     auto file = std::make_shared<std::string>();

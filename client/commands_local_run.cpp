@@ -205,9 +205,8 @@ void add_local_run_command(CLI::App& app, CommandLine& line) {
     CLI::Option* until = runner->add_option(
         "--until", words->until,
         "end: 2 (t = 2 s), +2 (2 s after the last --remove), step=400, a probe's value ('tip>0.3'), at-rest (default)");
-    CLI::Option* steps = runner->add_option("--steps", words->steps, "end after so many steps")
-                             ->check(CLI::PositiveNumber)
-                             ->excludes(until);
+    CLI::Option* steps =
+        runner->add_option("--steps", words->steps, "end after so many steps")->check(positive())->excludes(until);
     runner->add_flag("--at-rest", words->at_rest, "end when the fluid is at rest")->excludes(until)->excludes(steps);
     runner
         ->add_option("--remove", words->removals,
@@ -216,8 +215,7 @@ void add_local_run_command(CLI::App& app, CommandLine& line) {
     runner->add_option("--set", words->assignments, "parameter of the model, name=value; can be repeated")
         ->allow_extra_args(false);
     runner->add_option("--out", words->out, "folder of the results; default: the scene's name");
-    runner->add_option("--fps", words->fps, "frames per simulated second; default: the scene's")
-        ->check(CLI::PositiveNumber);
+    runner->add_option("--fps", words->fps, "frames per simulated second; default: the scene's")->check(positive());
     runner->add_option("--fields", words->field_words, "such as id,position,velocity; default: the scene's");
     runner
         ->add_option("--format", words->format_words,
@@ -229,7 +227,7 @@ void add_local_run_command(CLI::App& app, CommandLine& line) {
                      R"(a further probe, NAME=JSON, with its CSV file, such as 'tip={"front": {}}'; can be repeated)")
         ->allow_extra_args(false);
     runner->add_option("--threads", words->threads, "of the solver; default: as many as the machine has")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     runner->add_flag("--overwrite", words->overwrite, "replace an earlier recording");
 }
 

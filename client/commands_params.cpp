@@ -45,8 +45,7 @@ void add_parameter_commands(CLI::App& app, CommandLine& line) {
         add_command(app, line, "set", "change parameters of the model, all or none",
                     [to_set](const Globals& globals) { return set(globals, to_set->assignments, to_set->at_step); });
     setter->add_option("NAME=VALUE", to_set->assignments, "such as viscosity=5 or gravity=0,-9.8,0")->required();
-    setter->add_option("--at-step", to_set->at_step, "before this step instead of the next one")
-        ->check(CLI::NonNegativeNumber);
+    setter->add_option("--at-step", to_set->at_step, "before this step instead of the next one")->check(non_negative());
 
     auto names = std::make_shared<std::vector<std::string>>();
     add_command(app, line, "get", "tell parameters of the model", [names](const Globals& globals) {

@@ -131,12 +131,9 @@ void add_record_command(CLI::App& app, CommandLine& line) {
     recorder
         ->add_option("--for", words->for_seconds,
                      "simulated seconds; an idle simulation runs for so long. Without it: until the run ends or Ctrl-C")
-        ->check(CLI::PositiveNumber);
-    CLI::Option* fps =
-        recorder->add_option("--fps", words->fps, "frames per simulated second")->check(CLI::PositiveNumber);
-    recorder->add_option("--every", words->every, "a frame every so many steps")
-        ->check(CLI::PositiveNumber)
-        ->excludes(fps);
+        ->check(positive());
+    CLI::Option* fps = recorder->add_option("--fps", words->fps, "frames per simulated second")->check(positive());
+    recorder->add_option("--every", words->every, "a frame every so many steps")->check(positive())->excludes(fps);
     recorder->add_option("--fields", words->fields, "such as id,position,velocity; default: the scene's");
     recorder->add_option("--precision", words->precision, "f4 or f8")->capture_default_str();
     recorder->add_flag("--at-server", words->at_server, "the server writes FILE below its data folder");

@@ -83,7 +83,7 @@ void add_run_commands(CLI::App& app, CommandLine& line) {
     add_command(app, line, "step", "compute some steps and wait for them",
                 [steps](const Globals& globals) { return step(globals, *steps); })
         ->add_option("N", *steps, "how many")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
 
     auto options = std::make_shared<ResumeOptions>();
@@ -93,9 +93,9 @@ void add_run_commands(CLI::App& app, CommandLine& line) {
                            "end of the run, which is waited for: at-rest, 2 (t = 2 s), +2 (2 s from now), step=400, "
                            "steps=400, or a probe's value, 'gauge>0.3'");
     subcommand->add_option("--pace", options->pace, "simulated seconds per wall second at most; 1 is real time")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     subcommand->add_option("--timeout", options->timeout, "simulated seconds after which the run has timed out")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     subcommand->add_flag("--no-wait", options->no_wait, "do not wait for the end of the run");
 
     add_plain(app, line, "pause", "pause the run; headrace resume goes on", "sim.pause", "paused");

@@ -153,7 +153,7 @@ void add_scene_commands(CLI::App& app, CommandLine& line) {
     planner.footer("With a SCENE a private server plans it. Without one: the plan of the server's scene, as it runs.");
     add_scene_options(planner, to_plan->scene);
     planner.add_option("--steps", to_plan->steps, "run so many steps of SCENE first, to time the stages")
-        ->check(CLI::NonNegativeNumber)
+        ->check(non_negative())
         ->needs("SCENE");
     planner.get_option("--set")->needs("SCENE");
     add_command(app, line, "scenes", "list the scenes that need no file", scenes);

@@ -133,7 +133,7 @@ void add_script_command(CLI::App& app, CommandLine& line) {
     script->add_option("--data", words->data, "of a private server: folder below which it records")
         ->capture_default_str();
     script->add_option("--threads", words->threads, "of a private server's solver; default: as many as the machine has")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
 }
 
 }  // namespace headrace::client

@@ -51,6 +51,7 @@ constexpr WordKind kWordKinds[] = {
     {"", "--color-by", "field"},
     {"", "--palette", "palette"},
     {"", "--view", "view"},
+    {"", "--crop", "crop"},
     {"", "--format", "format"},
     {"", "--precision", "precision"},
     {"call", "METHOD", "method"},
@@ -110,6 +111,8 @@ std::vector<Candidate> names_of(std::string_view kind, const CLI::App& app, cons
         for (const std::string_view palette : kPaletteNames) names.push_back({std::string(palette), ""});
     } else if (kind == "view") {
         for (const std::string_view view : kViewNames) names.push_back({std::string(view), ""});
+    } else if (kind == "crop") {
+        names = {{"fluid", "what it reaches over the recording"}, {"scene", "all"}};
     } else if (kind == "precision") {
         names = {{"f4", "single"}, {"f8", "double"}};
     } else if (kind == "command") {

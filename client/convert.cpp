@@ -87,13 +87,14 @@ proto::Status check_recorded(const ConvertOptions& options, proto::FieldSet reco
 }
 
 proto::Result<std::vector<Output>> make_outputs(const ConvertOptions& options, const proto::SceneDesc& scene,
-                                                std::size_t frames) {
+                                                std::size_t frames, const std::optional<Extents>& extents) {
     WriterOptions writer_options;
     writer_options.folder = options.folder;
     writer_options.stem = options.recording.stem().string();
     writer_options.scene = scene;
     writer_options.expected_frames = frames;
     writer_options.picture = options.picture;
+    writer_options.extents = extents;
     std::vector<Output> outputs;
     for (const std::string& name : options.formats) {
         auto writer = make_writer(name, writer_options);
@@ -119,6 +120,28 @@ proto::Status check_region(proto::RecordingReader& reader, const std::vector<std
     return usage_error("no particle is ever inside", "--region", "the domain's corners are in the scene: scene.domain");
 }
 
+// What pictures of these frames have to show. Of long recordings some frames, evenly spread, tell it.
+proto::Result<Extents> find_extents(proto::RecordingReader& reader, const std::vector<std::size_t>& frames,
+                                    const ConvertOptions& options, const ObjectTimeline& timeline) {
+    constexpr std::size_t kFrames = 48;
+    const std::size_t count = std::min(frames.size(), kFrames);
+    Extents extents;
+    std::vector<std::byte> bytes;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t place = count == 1 ? 0 : k * (frames.size() - 1) / (count - 1);
+        auto frame = reader.read_frame(frames[place]);
+        if (!frame) return frame.error();
+        if (options.region) frame = select_region(*frame, *options.region, bytes);
+        include(extents.fluid, bounds_without_spray(*frame));
+        for (const PlacedObject& object : timeline.at(frame->info.step, frame->info.time))
+            if (!object.is_plane())
+                include(object.is_container() ? extents.containers
+                                              : extents.obstacles.try_emplace(object.desc.name, kNowhere).first->second,
+                        placed_bounds(object));
+    }
+    return extents;
+}
+
 // What is left to do with a frame, in order, and its time.
 struct Prepared {
     std::vector<Writer::InOrder> rest;
@@ -134,9 +157,10 @@ proto::Result<Prepared> prepare(proto::RecordingReader& reader, std::size_t inde
     std::vector<std::byte> bytes;
     if (options.region) frame = select_region(*frame, *options.region, bytes);
     Prepared prepared{{}, frame->info.time};
+    const std::vector<PlacedObject> objects = timeline.at(frame->info.step, frame->info.time);
     for (const Output& output : outputs) {
         const proto::FrameView part = select_fields(*frame, output.fields);
-        auto rest = output.writer->prepare({part, number, timeline.at(frame->info.step)});
+        auto rest = output.writer->prepare({part, number, objects});
         if (!rest) return rest.error();
         prepared.rest.push_back(*std::move(rest));
     }
@@ -180,7 +204,8 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
     if (!scene) return scene.error();
     auto objects = proto::parse_objects(metadata.objects_json);
     if (!objects) return objects.error();
-    const ObjectTimeline timeline(*std::move(objects), reader.events());
+    const auto timeline = ObjectTimeline::make(*std::move(objects), reader.events(), *scene);
+    if (!timeline) return timeline.error();
 
     const std::vector<std::size_t> frames = choose_frames(reader, options);
     if (frames.empty()) return no_frames(reader, options);
@@ -191,7 +216,13 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
     if (auto checked = check_recorded(options, recorded); !checked) return checked.error();
     if (options.region)
         if (auto checked = check_region(reader, frames, options); !checked) return checked.error();
-    auto outputs = make_outputs(options, *scene, frames.size());
+    std::optional<Extents> extents;
+    if (std::ranges::any_of(options.formats, [](const auto& name) { return find_format(name)->is_picture; })) {
+        auto found = find_extents(reader, frames, options, *timeline);
+        if (!found) return found.error();
+        extents = *found;
+    }
+    auto outputs = make_outputs(options, *scene, frames.size(), extents);
     if (!outputs) return outputs.error();
 
     // Each job reads by itself: unpacking and checking frames is a good part of the work.
@@ -207,7 +238,7 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
     std::vector<Work::Make> workers;
     for (const auto& own : readers)
         workers.push_back([&, source = own.get()](std::size_t number) {
-            return prepare(*source, frames[number], number, options, timeline, *outputs);
+            return prepare(*source, frames[number], number, options, *timeline, *outputs);
         });
 
     Progress progress = make_progress("converting");

@@ -1,7 +1,10 @@
 #include "client/frame_selection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+
+#include "client/writers/vec3.h"
 
 namespace headrace::client {
 
@@ -45,6 +48,28 @@ proto::FrameView select_region(const proto::FrameView& frame, const proto::BoxDe
         part.columns.push_back(chosen);
     }
     return part;
+}
+
+proto::BoxDesc bounds_without_spray(const proto::FrameView& frame) {
+    constexpr double kSpray = 0.002;  // of the particles
+    const proto::FrameColumn& position = *frame.find(proto::Field::position);
+    proto::BoxDesc bounds = kNowhere;
+    std::vector<double> places;
+    for (int axis = 0; axis < 3; ++axis) {
+        places.clear();
+        for (std::size_t row = 0; row < frame.info.particle_count && axis < position.components; ++row) {
+            const double x = proto::FrameView::value(position, row, axis);
+            if (std::isfinite(x)) places.push_back(x);
+        }
+        if (axis >= position.components) places.push_back(0);
+        if (places.empty()) return kNowhere;
+        const auto spray = static_cast<std::ptrdiff_t>(kSpray * static_cast<double>(places.size()));
+        std::nth_element(places.begin(), places.begin() + spray, places.end());
+        bounds.min[axis] = places[spray];
+        std::nth_element(places.begin(), places.end() - 1 - spray, places.end());
+        bounds.max[axis] = places[places.size() - 1 - spray];
+    }
+    return bounds;
 }
 
 proto::FrameView select_fields(const proto::FrameView& frame, proto::FieldSet fields) {

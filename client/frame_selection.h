@@ -15,6 +15,10 @@ namespace headrace::client {
 proto::FrameView select_region(const proto::FrameView& frame, const proto::BoxDesc& region,
                                std::vector<std::byte>& bytes);
 
+// [m] Of the particles, but for the outermost two in a thousand on each side: spray. Nowhere (min above max) without
+// particles. Precondition: the frame has positions.
+proto::BoxDesc bounds_without_spray(const proto::FrameView& frame);
+
 // The same bytes, fewer columns.
 proto::FrameView select_fields(const proto::FrameView& frame, proto::FieldSet fields);
 

@@ -1,22 +1,39 @@
 #include "client/object_timeline.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace headrace::client {
 
-ObjectTimeline::ObjectTimeline(std::vector<proto::ObjectDesc> initial, const std::vector<proto::Event>& events) {
-    changes_.emplace_back(0, std::move(initial));
+proto::Result<ObjectTimeline> ObjectTimeline::make(std::vector<proto::ObjectDesc> initial,
+                                                   const std::vector<proto::Event>& events,
+                                                   const proto::SceneDesc& scene) {
+    ObjectTimeline timeline;
+    const auto add = [&](std::uint64_t step, std::vector<proto::ObjectDesc> objects) -> proto::Status {
+        auto motions = scene::MovingObjects::make(objects, scene.dimensions, scene.spacing);
+        if (!motions) return motions.error();
+        timeline.changes_.push_back({step, std::move(objects), *std::move(motions)});
+        return proto::Done{};
+    };
+    if (auto added = add(0, std::move(initial)); !added) return added.error();
     for (const proto::Event& event : events)
-        if (event.objects) changes_.emplace_back(event.step, *event.objects);
+        if (event.objects)
+            if (auto added = add(event.step, *event.objects); !added) return added.error();
     // Events of one step keep their order: the last one counts.
-    std::stable_sort(changes_.begin() + 1, changes_.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(timeline.changes_.begin() + 1, timeline.changes_.end(),
+                     [](const Change& a, const Change& b) { return a.step < b.step; });
+    return timeline;
 }
 
-const std::vector<proto::ObjectDesc>& ObjectTimeline::at(std::uint64_t step) const {
-    const auto after = std::upper_bound(changes_.begin() + 1, changes_.end(), step,
-                                        [](std::uint64_t wanted, const auto& change) { return wanted < change.first; });
-    return std::prev(after)->second;
+std::vector<PlacedObject> ObjectTimeline::at(std::uint64_t step, double time) const {
+    const auto after =
+        std::upper_bound(changes_.begin() + 1, changes_.end(), step,
+                         [](std::uint64_t wanted, const Change& change) { return wanted < change.step; });
+    const Change& last = *std::prev(after);
+    const std::vector<scene::Placement> places = last.motions.at(time);
+    std::vector<PlacedObject> placed;
+    for (std::size_t k = 0; k < last.objects.size(); ++k) placed.emplace_back(last.objects[k], places[k]);
+    return placed;
 }
 
 }  // namespace headrace::client

@@ -1,8 +1,10 @@
 #include "client/writers/annotations.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "client/writers/cairo_canvas.h"
 #include "client/writers/palette.h"
@@ -31,6 +33,15 @@ std::string short_number(double value) {
     return text;
 }
 
+// The largest of 1, 2, 5 times a power of ten that is not larger.
+double rounded_down(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    double rounded = power;
+    for (const double nice : {2.0, 5.0})
+        if (nice * power <= value) rounded = nice * power;
+    return rounded;
+}
+
 // "m/s^2" -> "m/s²"
 std::string typeset_unit(std::string_view unit) {
     std::string text;
@@ -52,8 +63,10 @@ std::string typeset_unit(std::string_view unit) {
 BarBox bar_box(int picture_height, int right_edge, double scale) {
     const int width = static_cast<int>(std::lround(18 * scale));
     const int labels = static_cast<int>(std::lround(92 * scale));
-    return {right_edge - width - labels, static_cast<int>(0.24 * picture_height), width,
-            static_cast<int>(0.58 * picture_height)};
+    // In small pictures below the lines of text.
+    const int top = std::max(static_cast<int>(0.24 * picture_height), static_cast<int>(128 * scale));
+    const int height = std::min(static_cast<int>(0.58 * picture_height), picture_height - top - 4);
+    return {right_edge - width - labels, top, width, std::max(height, 2)};
 }
 
 void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, double scale) {
@@ -92,14 +105,68 @@ void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, d
     show_text(canvas, box.left, box.top - 13 * scale, legend);
 }
 
+bool draw_ruler(Image& image, const Camera& camera, const Vec3& from, const Vec3& to, double room, double scale) {
+    const double whole = length(to - from), round = rounded_down(whole / 3);
+    const Vec3 end = from + (round / whole) * (to - from);
+    const Projected a = camera.project(from), b = camera.project(end);
+    const double span = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(span > 20 * scale)) return false;
+    // Across the line, downwards.
+    double across_x = -(b.y - a.y) / span, across_y = (b.x - a.x) / span;
+    if (across_y < 0) across_x = -across_x, across_y = -across_y;
+    const double gap = 11 * scale + room * camera.pixels_per_metre(a.nearness), tick = 4 * scale;
+    const auto at = [&](const Projected& p, double offset) {
+        return std::pair{p.x + offset * across_x, p.y + offset * across_y};
+    };
+    const Canvas canvas(image);
+    select_font(canvas, 14 * scale, Weight::normal);
+    const std::string label = short_number(round) + " m";
+    cairo_text_extents_t text;
+    cairo_text_extents(canvas(), label.c_str(), &text);
+    const double x = 0.5 * (a.x + b.x) + (gap + 6 * scale) * across_x - 0.5 * text.width;
+    const double y = 0.5 * (a.y + b.y) + (gap + 6 * scale) * across_y + text.height + 4 * scale;
+    for (const auto& [px, py] : {at(a, gap + tick), at(b, gap + tick), std::pair{x, y}, std::pair{x + text.width, y}})
+        if (px < 4 * scale || py < 0 || px > image.width - 4 * scale || py > image.height - 4 * scale) return false;
+    canvas.set_color(kInk);
+    cairo_set_line_width(canvas(), 1.5 * scale);
+    const auto line = [&](const std::pair<double, double>& p, const std::pair<double, double>& q) {
+        cairo_move_to(canvas(), p.first, p.second);
+        cairo_line_to(canvas(), q.first, q.second);
+    };
+    line(at(a, gap), at(b, gap));
+    for (const Projected& p : {a, b}) line(at(p, gap - tick), at(p, gap + tick));
+    cairo_stroke(canvas());
+    show_text(canvas, x, y, label);
+    return true;
+}
+
+void draw_axes(Image& image, const Camera& camera, double x, double y, double scale) {
+    const Canvas canvas(image);
+    select_font(canvas, 12 * scale, Weight::normal);
+    cairo_set_line_width(canvas(), 1.5 * scale);
+    for (std::size_t k = 0; k < 3; ++k) {
+        Vec3 axis{};
+        axis[k] = 1;
+        const double dx = dot(axis, camera.right()), dy = -dot(axis, camera.up()), seen = std::hypot(dx, dy);
+        if (seen < 0.05) continue;  // towards the viewer
+        const double arrow = 22 * scale, ux = dx / seen, uy = dy / seen, head = 6 * scale;
+        const double tip_x = x + arrow * dx, tip_y = y + arrow * dy;
+        canvas.set_color(kInk);
+        cairo_move_to(canvas(), x, y);
+        cairo_line_to(canvas(), tip_x, tip_y);
+        cairo_stroke(canvas());
+        cairo_move_to(canvas(), tip_x + 0.5 * head * ux, tip_y + 0.5 * head * uy);
+        cairo_line_to(canvas(), tip_x - 0.5 * head * (ux - 0.7 * uy), tip_y - 0.5 * head * (uy + 0.7 * ux));
+        cairo_line_to(canvas(), tip_x - 0.5 * head * (ux + 0.7 * uy), tip_y - 0.5 * head * (uy - 0.7 * ux));
+        cairo_fill(canvas());
+        show_text(canvas, tip_x + 10 * scale * ux - 4 * scale, tip_y + 10 * scale * uy + 4 * scale,
+                  std::string(1, "xyz"[k]));
+    }
+}
+
 void draw_scale_bar(Image& image, double x, double y, double pixels_per_metre, double scale) {
-    // The largest round number of metres that takes at most 160 px.
-    const double longest = 160 * scale / pixels_per_metre;
-    const double power = std::pow(10.0, std::floor(std::log10(longest)));
-    double length = power;
-    for (const double nice : {2.0, 5.0})
-        if (nice * power <= longest) length = nice * power;
-    const double right = x + length * pixels_per_metre, tick = 4 * scale;
+    const double metres = rounded_down(160 * scale / pixels_per_metre);  // takes at most 160 px
+    const double right = x + metres * pixels_per_metre, tick = 4 * scale;
     const Canvas canvas(image);
     canvas.set_color(kInk);
     cairo_set_line_width(canvas(), 1.5 * scale);
@@ -111,7 +178,7 @@ void draw_scale_bar(Image& image, double x, double y, double pixels_per_metre, d
     cairo_line_to(canvas(), right, y + tick);
     cairo_stroke(canvas());
     select_font(canvas, 14 * scale, Weight::normal);
-    show_text(canvas, right + 8 * scale, y + 5 * scale, short_number(length) + " m");
+    show_text(canvas, right + 8 * scale, y + 5 * scale, short_number(metres) + " m");
 }
 
 void draw_text(Image& image, double x, double y, double size, const std::string& text, Weight weight) {

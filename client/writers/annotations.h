@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "client/writers/camera.h"
 #include "client/writers/image.h"
 #include "client/writers/scene_view.h"
 
@@ -22,6 +23,13 @@ void draw_color_bar(Image& image, const BarBox& box, const ColorScale& colors, d
 
 // A bar of a round length with that length beside it; x, y: its left end [px]. For views without perspective.
 void draw_scale_bar(Image& image, double x, double y, double pixels_per_metre, double scale);
+
+// The same along a straight line of the scene, seen at any angle: from `from` towards `to` [m], by at most a third of
+// the way, `room` [m] and a little below the line. False, and nothing drawn, where that is not all within the picture.
+bool draw_ruler(Image& image, const Camera& camera, const Vec3& from, const Vec3& to, double room, double scale);
+
+// Three arrows from x, y [px] that tell how the axes are seen.
+void draw_axes(Image& image, const Camera& camera, double x, double y, double scale);
 
 enum class Weight { normal, bold };
 // x, y: left end of the base line [px]; size: of the font [px].

@@ -67,6 +67,23 @@ Camera Camera::looking(std::span<const Vec3> points, const std::optional<Vec3>& 
     return camera;
 }
 
+Camera Camera::zoomed(double factor, const Viewport& viewport) const {
+    const double x = viewport.left + 0.5 * viewport.width, y = viewport.top + 0.5 * viewport.height;
+    Camera camera = *this;
+    camera.focal_ *= factor;
+    camera.x_center_ = x + factor * (x_center_ - x);
+    camera.y_center_ = y + factor * (y_center_ - y);
+    return camera;
+}
+
+Camera Camera::zoomed(double factor, const Vec3& target, const Viewport& viewport) const {
+    Camera camera = zoomed(factor, viewport);
+    const Projected seen = camera.project(target);
+    camera.x_center_ += viewport.left + 0.5 * viewport.width - seen.x;
+    camera.y_center_ += viewport.top + 0.5 * viewport.height - seen.y;
+    return camera;
+}
+
 // Scale and shift are affine in the picture, so one look at the points is enough.
 void Camera::fit(std::span<const Vec3> points, const Viewport& viewport) {
     focal_ = 1;

@@ -58,6 +58,10 @@ class Camera {
     // The same view on a picture `factor` times as large.
     Camera magnified(double factor) const;
 
+    // So many times as large about the viewport's middle; with a target, that moves there.
+    Camera zoomed(double factor, const Viewport& viewport) const;
+    Camera zoomed(double factor, const Vec3& target, const Viewport& viewport) const;
+
     // The smallest part of the picture that shows all of the points.
     Viewport covered(std::span<const Vec3> points) const;
 

@@ -25,7 +25,7 @@ int best_columns(int cells, int width, int height) {
         const int rows = (cells + columns - 1) / columns;
         const double aspect = static_cast<double>(columns * width + kBar) / (rows * (height + kLabel) + kTitle);
         // An empty cell is a blemish, not a disaster.
-        const double miss = std::abs(std::log(aspect / 1.6)) + 0.05 * (rows * columns - cells);
+        const double miss = std::abs(std::log(aspect / 1.6)) + 0.15 * (rows * columns - cells);
         if (miss < best_miss) best_miss = miss, best = columns;
     }
     return best;

@@ -23,12 +23,15 @@ class FramePicture {
     std::string title() const;
     std::string time_label(double time) const;  // "t = 0.25 s"
     const ColorScale& colors() const { return colors_; }
+    const Stage& stage() const { return stage_; }
 
   private:
     void annotate(Image& image, const proto::FrameInfo& info) const;
+    void draw_scale(Image& image, double scale) const;
 
     WriterOptions options_;
     ColorScale colors_;
+    Stage stage_;
     SceneRenderer renderer_;
 };
 

@@ -42,8 +42,10 @@ class Encoder {
                                        std::to_string(width) + "x" + std::to_string(height), "-r", rate, "-i", "pipe:0",
                                        // The format's colours need even sizes; 18: no loss that is seen.
                                        "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v", "libx264", "-crf",
-                                       "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4",
-                                       "file:" + file.string()};
+                                       "18", "-pix_fmt", "yuv420p",
+                                       // The same bytes each time: no versions, no times.
+                                       "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
+                                       "-movflags", "+faststart", "-f", "mp4", "file:" + file.string()};
         std::vector<char*> arguments;
         for (std::string& word : words) arguments.push_back(word.data());
         arguments.push_back(nullptr);

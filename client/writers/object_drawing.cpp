@@ -5,15 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "client/writers/scene_view.h"
-#include "proto/shape_bounds.h"
+#include "client/writers/block_faces.h"
 
 namespace headrace::client {
 
 namespace {
 
 using proto::BoxDesc;
-using proto::ObjectDesc;
 using proto::ObjectRole;
 using proto::SphereDesc;
 
@@ -22,48 +20,30 @@ constexpr Rgb kGlass{0x6F, 0x86, 0x9C}, kGlassEdge{0x4A, 0x5B, 0x6C};
 constexpr Rgb kSolid{0xD9, 0x8C, 0x5F}, kSolidEdge{0x8A, 0x4B, 0x2A};
 constexpr double kEdgeWidth = 1.3;  // [px]
 
-// Corners of the faces as box_corner counts them, and each face's outward normal.
-struct Face {
-    std::array<int, 4> corners;
-    Vec3 normal;
-};
-const std::array<Face, 6> kFaces{{
-    {{0, 4, 6, 2}, {-1, 0, 0}},
-    {{1, 3, 7, 5}, {1, 0, 0}},
-    {{0, 1, 5, 4}, {0, -1, 0}},
-    {{2, 6, 7, 3}, {0, 1, 0}},
-    {{0, 2, 3, 1}, {0, 0, -1}},
-    {{4, 5, 7, 6}, {0, 0, 1}},
-}};
-
-bool faces_viewer(const Camera& camera, const BoxDesc& box, const Face& face) {
-    return dot(face.normal, camera.towards_eye(box_corner(box, face.corners[0]))) > 0;
+bool faces_viewer(const Camera& camera, const Block& block, const Face& face) {
+    return dot(normal_of(block, face), camera.towards_eye(block.corners[face.corners[0]])) > 0;
 }
 
-// Draws the faces on one side of the box as `alpha(normal)` says.
+// Draws the faces on one side of the block as `alpha(normal)` says.
 template <class Alpha>
-void draw_faces(Raster& raster, const BoxDesc& box, bool near_side, Rgb color, const Alpha& alpha) {
+void draw_faces(Raster& raster, const OpenBlock& shown, bool near_side, Rgb color, const Alpha& alpha) {
     for (const Face& face : kFaces) {
-        if (faces_viewer(raster.camera(), box, face) != near_side) continue;
+        if (!shown.has(face) || faces_viewer(raster.camera(), shown.block, face) != near_side) continue;
         std::array<Vec3, 4> corners;
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = box_corner(box, face.corners[k]);
-        raster.polygon(corners, color, alpha(face.normal));
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = shown.block.corners[face.corners[k]];
+        raster.polygon(corners, color, alpha(normal_of(shown.block, face)));
     }
 }
 
 // An edge is on the near side when one of its two faces is.
-void draw_edges(Raster& raster, const BoxDesc& box, bool near_side, Rgb color, double alpha) {
-    for (int from = 0; from < 8; ++from)
-        for (const int axis : {1, 2, 4}) {
-            const int to = from | axis;
-            if (to == from) continue;
-            bool is_near = false;
-            for (const Face& face : kFaces) {
-                const auto has = [&](int corner) { return std::ranges::count(face.corners, corner) > 0; };
-                if (has(from) && has(to) && faces_viewer(raster.camera(), box, face)) is_near = true;
-            }
-            if (is_near == near_side) raster.line(box_corner(box, from), box_corner(box, to), kEdgeWidth, color, alpha);
-        }
+void draw_edges(Raster& raster, const OpenBlock& shown, bool near_side, Rgb color, double alpha) {
+    const Block& block = shown.block;
+    for (const Edge& edge : block_edges()) {
+        const bool is_near = faces_viewer(raster.camera(), block, *edge.faces[0]) ||
+                             faces_viewer(raster.camera(), block, *edge.faces[1]);
+        if (is_near == near_side && shown.has(edge))
+            raster.line(block.corners[edge.from], block.corners[edge.to], kEdgeWidth, color, alpha);
+    }
 }
 
 // Circles on a sphere about each of the three axes; only the part on the near (or far) side.
@@ -109,7 +89,7 @@ void draw_solid_sphere(Raster& raster, const SphereDesc& sphere) {
                   });
 }
 
-void draw_solid_box(Raster& raster, const BoxDesc& box) {
+void draw_solid_box(Raster& raster, const OpenBlock& box) {
     draw_faces(raster, box, false, kSolid, [](const Vec3&) { return 0.20; });
     draw_edges(raster, box, false, kSolidEdge, 0.35);
     const Vec3 up = raster.camera().up();
@@ -145,71 +125,111 @@ void draw_cylinder(Raster& raster, const proto::CylinderDesc& cylinder, bool nea
     }
 }
 
-void draw_container(Raster& raster, const ObjectDesc& object, bool near_side) {
-    if (const auto* sphere = std::get_if<SphereDesc>(&object.shape))
-        return draw_glass_sphere(raster, *sphere, near_side);
-    if (const auto* cylinder = std::get_if<proto::CylinderDesc>(&object.shape))
+void draw_container(Raster& raster, const PlacedObject& object, bool near_side, const Stage& stage) {
+    const PlacedShape shape = placed_shape(object);
+    if (const auto* sphere = std::get_if<SphereDesc>(&shape)) return draw_glass_sphere(raster, *sphere, near_side);
+    if (const auto* cylinder = std::get_if<proto::CylinderDesc>(&shape))
         return draw_cylinder(raster, *cylinder, near_side, kGlass, kGlassEdge, near_side ? 0.03 : 0.12);
-    const auto& box = std::get<BoxDesc>(object.shape);
+    const OpenBlock shown = shown_container(object, stage);
     const Vec3 up = raster.camera().up();
     // The floor a little darker: it carries the scene.
-    draw_faces(raster, box, near_side, kGlass, [&](const Vec3& normal) {
+    const auto alpha = [&](const Vec3& normal) {
         if (near_side) return 0.03;
         return dot(normal, up) < -0.5 ? 0.26 : 0.11;
-    });
-    draw_edges(raster, box, near_side, kGlassEdge, near_side ? 0.9 : 0.45);
+    };
+    draw_faces(raster, shown, near_side, kGlass, alpha);
+    draw_edges(raster, shown, near_side, kGlassEdge, near_side ? 0.9 : 0.45);
 }
 
-// Planes have no end; where they are, the fluid shows.
-bool is_drawn(const ObjectDesc& object) {
-    return !std::holds_alternative<proto::PlaneDesc>(object.shape);
+// A sheet as large as what is shown.
+void draw_plane(Raster& raster, const proto::PlaneDesc& plane, const BoxDesc& shown) {
+    const std::vector<Vec3> sheet = plane_in_box(plane, shown);
+    if (sheet.size() < 3) return;
+    const bool is_behind = dot(plane.normal, raster.camera().towards_eye(sheet[0])) > 0;
+    raster.polygon(sheet, kGlass, is_behind ? 0.26 : 0.05);
+    for (std::size_t k = 0; k < sheet.size(); ++k)
+        raster.line(sheet[k], sheet[(k + 1) % sheet.size()], kEdgeWidth, kGlassEdge, is_behind ? 0.5 : 0.3);
 }
 
-Vec3 center_of(const ObjectDesc& object) {
-    const BoxDesc box = proto::bounding_box(object.shape);
+// A line, hatched on the side without fluid as drawings of walls are.
+void draw_flat_plane(Raster& raster, const proto::PlaneDesc& plane, const BoxDesc& shown, const Vec3& raise) {
+    const std::vector<Vec3> ends = plane_in_box(plane, shown);
+    if (ends.size() != 2) return;
+    const Vec3 from = ends[0] + raise, to = ends[1] + raise;
+    raster.line(from, to, 2.0, kGlassEdge, 1.0);
+    const double span = length(to - from), step = 0.02 * length(shown.max - shown.min);
+    const Vec3 along = (1 / span) * (to - from), stroke = 0.5 * step * (along - normalized(plane.normal));
+    for (double s = 0; s + 0.5 * step < span; s += step)
+        raster.line(from + s * along, from + s * along + stroke, 1.0, kGlassEdge, 0.8);
+}
+
+Vec3 center_of(const PlacedObject& object) {
+    const BoxDesc box = placed_bounds(object);
     return 0.5 * (box.min + box.max);
+}
+
+std::vector<Vec3> circle(const SphereDesc& disc) {
+    constexpr int kCorners = 180;
+    std::vector<Vec3> corners;
+    for (int k = 0; k < kCorners; ++k) {
+        const double angle = 2 * std::numbers::pi * k / kCorners;
+        corners.push_back(disc.center + Vec3{disc.radius * std::cos(angle), disc.radius * std::sin(angle), 0});
+    }
+    return corners;
 }
 
 }  // namespace
 
-void draw_objects(Raster& raster, const std::vector<ObjectDesc>& objects) {
-    // Translucent things blend from far to near: far walls, obstacles by distance, near walls.
-    std::vector<const ObjectDesc*> containers, obstacles;
-    for (const ObjectDesc& object : objects)
-        if (is_drawn(object)) (object.role == ObjectRole::container ? containers : obstacles).push_back(&object);
-    std::ranges::stable_sort(
-        obstacles, {}, [&](const ObjectDesc* object) { return raster.camera().project(center_of(*object)).nearness; });
+BoxDesc room_of_planes(const Stage& stage) {
+    return grown(stage.bounds, 0.04 * length(stage.bounds.max - stage.bounds.min));
+}
 
-    for (const ObjectDesc* container : containers) draw_container(raster, *container, false);
-    for (const ObjectDesc* obstacle : obstacles) {
-        if (const auto* sphere = std::get_if<SphereDesc>(&obstacle->shape))
+void draw_objects(Raster& raster, const std::vector<PlacedObject>& objects, const Stage& stage) {
+    // Translucent things blend from far to near: planes, far walls, obstacles by distance, near walls.
+    std::vector<const PlacedObject*> containers, obstacles;
+    for (const PlacedObject& object : objects) {
+        if (object.is_plane())
+            draw_plane(raster, std::get<proto::PlaneDesc>(placed_shape(object)), room_of_planes(stage));
+        else
+            (object.is_container() ? containers : obstacles).push_back(&object);
+    }
+    std::ranges::stable_sort(obstacles, {}, [&](const PlacedObject* object) {
+        return raster.camera().project(center_of(*object)).nearness;
+    });
+
+    for (const PlacedObject* container : containers) draw_container(raster, *container, false, stage);
+    for (const PlacedObject* obstacle : obstacles) {
+        const PlacedShape shape = placed_shape(*obstacle);
+        if (const auto* sphere = std::get_if<SphereDesc>(&shape))
             draw_solid_sphere(raster, *sphere);
-        else if (const auto* cylinder = std::get_if<proto::CylinderDesc>(&obstacle->shape))
+        else if (const auto* cylinder = std::get_if<proto::CylinderDesc>(&shape))
             for (const bool near_side : {false, true})
                 draw_cylinder(raster, *cylinder, near_side, kSolid, kSolidEdge, near_side ? 0.4 : 0.2);
         else
-            draw_solid_box(raster, inside_containers(std::get<BoxDesc>(obstacle->shape), objects));
+            draw_solid_box(raster, shown_obstacle(*obstacle, objects, stage));
     }
-    for (const ObjectDesc* container : containers) draw_container(raster, *container, true);
+    for (const PlacedObject* container : containers) draw_container(raster, *container, true, stage);
 }
 
-void draw_flat_objects(Raster& raster, const std::vector<ObjectDesc>& objects, double lift) {
+void draw_flat_objects(Raster& raster, const std::vector<PlacedObject>& objects, const Stage& stage, double lift) {
     const Vec3 raise = lift * raster.camera().backward();
+    for (const PlacedObject& object : objects)
+        if (object.is_plane()) {
+            BoxDesc room = room_of_planes(stage);
+            room.min[2] = room.max[2] = 0;
+            draw_flat_plane(raster, std::get<proto::PlaneDesc>(placed_shape(object)), room, raise);
+        }
     for (const ObjectRole role : {ObjectRole::obstacle, ObjectRole::container})
-        for (const ObjectDesc& object : objects) {
-            if (object.role != role || !is_drawn(object)) continue;
+        for (const PlacedObject& object : objects) {
+            if (object.desc.role != role || object.is_plane()) continue;
             std::vector<Vec3> corners;
-            if (const auto* disc = std::get_if<SphereDesc>(&object.shape)) {
-                constexpr int kCorners = 180;
-                for (int k = 0; k < kCorners; ++k) {
-                    const double angle = 2 * std::numbers::pi * k / kCorners;
-                    corners.push_back(disc->center +
-                                      Vec3{disc->radius * std::cos(angle), disc->radius * std::sin(angle), 0});
-                }
+            const PlacedShape shape = placed_shape(object);
+            if (const auto* disc = std::get_if<SphereDesc>(&shape)) {
+                corners = circle(*disc);
             } else {
-                BoxDesc box = std::get<BoxDesc>(object.shape);
-                if (role == ObjectRole::obstacle) box = inside_containers(box, objects);
-                for (const int k : {0, 1, 3, 2}) corners.push_back(box_corner(box, k));
+                const Block block =
+                    role == ObjectRole::obstacle ? visible_block(object, objects) : std::get<Block>(shape);
+                for (const std::size_t k : {0, 1, 3, 2}) corners.push_back(block.corners[k]);
             }
             for (Vec3& corner : corners) corner = Vec3{corner[0], corner[1], 0} + raise;
             const bool is_solid = role == ObjectRole::obstacle;

@@ -87,6 +87,9 @@ class MeshBuilder {
         outline(corners);
     }
 
+    // Of the points from here on.
+    void set_place(const scene::Placement& place) { place_ = place; }
+
     std::size_t cell_count() const { return piece_.lines.offsets.size() + piece_.polys.offsets.size(); }
 
     VtpPiece finish() {
@@ -97,7 +100,10 @@ class MeshBuilder {
 
   private:
     std::int32_t point_count() const { return static_cast<std::int32_t>(coordinates_.size() / 3); }
-    void point(const Vec3& x) { coordinates_.insert(coordinates_.end(), x.begin(), x.end()); }
+    void point(const Vec3& at_start) {
+        const Vec3 x = place_(at_start);
+        coordinates_.insert(coordinates_.end(), x.begin(), x.end());
+    }
 
     static void close_cell(VtpCells& cells) {
         cells.offsets.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
@@ -120,16 +126,18 @@ class MeshBuilder {
 
     VtpPiece piece_;
     std::vector<double> coordinates_;
+    scene::Placement place_;
 };
 
 }  // namespace
 
-VtpPiece make_object_mesh(const std::vector<proto::ObjectDesc>& objects, int dimensions) {
+VtpPiece make_object_mesh(const std::vector<PlacedObject>& objects, int dimensions) {
     MeshBuilder mesh;
     std::vector<std::int32_t> object_of_cell, is_container;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < objects.size(); ++k) {
-        const proto::ObjectDesc& object = objects[k];
+        const proto::ObjectDesc& object = objects[k].desc;
+        mesh.set_place(objects[k].place);
         if (const auto* box = std::get_if<BoxDesc>(&object.shape))
             dimensions == 2 ? mesh.rectangle(*box) : mesh.box(*box);
         else if (const auto* sphere = std::get_if<SphereDesc>(&object.shape))

@@ -4,12 +4,12 @@
 
 #include <vector>
 
+#include "client/writers/placed_object.h"
 #include "client/writers/vtp_file.h"
-#include "proto/scene_desc.h"
 
 namespace headrace::client {
 
 // Cell data: `object` (row in `objects`) and `is_container` (1 or 0); field data `names`.
-VtpPiece make_object_mesh(const std::vector<proto::ObjectDesc>& objects, int dimensions);
+VtpPiece make_object_mesh(const std::vector<PlacedObject>& objects, int dimensions);
 
 }  // namespace headrace::client

@@ -58,13 +58,14 @@ class PictureWriter final : public Writer {
   private:
     // Cells have the shape of what they show, so that the sheet wastes no room.
     void make_small_renderer() {
-        const SceneRenderer probe(options_.scene, picture_.colors(), 16, 16, {0, 0, 16, 16}, options_.picture.view);
-        const Viewport seen = probe.camera().covered(visible_outline(options_.scene));
+        const Stage& stage = picture_.stage();
+        const Viewport seen =
+            make_camera(options_.scene, stage, options_.picture.view, {0, 0, 16, 16}).covered(stage.outline);
         const double aspect = std::clamp(seen.width / seen.height, 0.4, 4.0);
         const int width = static_cast<int>(std::sqrt(kCellArea * aspect));
         const int height = static_cast<int>(std::sqrt(kCellArea / aspect));
-        small_.emplace(options_.scene, picture_.colors(), width, height, Viewport{10, 10, width - 20.0, height - 20.0},
-                       options_.picture.view);
+        small_.emplace(options_.scene, stage, picture_.colors(), width, height,
+                       Viewport{10, 10, width - 20.0, height - 20.0}, options_.picture.view);
     }
 
     std::filesystem::path sheet_path() const { return options_.folder / (options_.stem + "_sheet.png"); }

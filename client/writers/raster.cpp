@@ -40,13 +40,19 @@ std::uint32_t shaded(Rgb color, float u, float v, float w) {
 
 }  // namespace
 
-Raster::Raster(int width, int height, const Camera& camera)
+Raster::Raster(int width, int height, const Camera& camera, const std::optional<Viewport>& clip)
     : width_(width * kOversampling),
       height_(height * kOversampling),
+      window_{0, width_, 0, height_},
       camera_(camera),
       fine_(camera.magnified(kOversampling)),
       nearness_(static_cast<std::size_t>(width_) * height_, kInfinitelyFar),
-      color_(nearness_.size()) {}
+      color_(nearness_.size()) {
+    if (!clip) return;
+    const auto fine = [](double pixels) { return kOversampling * std::round(pixels); };
+    window_ =
+        clipped(fine(clip->left), fine(clip->left + clip->width), fine(clip->top), fine(clip->top + clip->height));
+}
 
 void Raster::clear(Rgb color) {
     std::fill(nearness_.begin(), nearness_.end(), kInfinitelyFar);
@@ -111,8 +117,8 @@ void Raster::polygon(std::span<const Vec3> corners, Rgb color, double alpha) {
             left = std::min(left, x), right = std::max(right, x);
         }
         // Pixels whose centre is inside, so that polygons side by side never blend twice.
-        const int x0 = std::max(0, static_cast<int>(std::ceil(left - 0.5)));
-        const int x1 = std::min(width_, static_cast<int>(std::ceil(right - 0.5)));
+        const int x0 = std::max(window_.x0, static_cast<int>(std::ceil(left - 0.5)));
+        const int x1 = std::min(window_.x1, static_cast<int>(std::ceil(right - 0.5)));
         for (int x = x0; x < x1; ++x) {
             const double nearness = p[0].nearness + along_x * (x + 0.5 - p[0].x) + along_y * (y + 0.5 - p[0].y);
             const std::size_t pixel = static_cast<std::size_t>(y) * width_ + x;
@@ -169,11 +175,11 @@ void Raster::resolve(Image& image) const {
 }
 
 Raster::Range Raster::clipped(double left, double right, double top, double bottom) const {
-    const auto cut = [](double value, int limit) {
-        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
+    const auto cut = [](double value, int from, int to) {
+        return static_cast<int>(std::clamp(value, static_cast<double>(from), static_cast<double>(to)));
     };
-    return {cut(std::floor(left), width_), cut(std::ceil(right), width_), cut(std::floor(top), height_),
-            cut(std::ceil(bottom), height_)};
+    return {cut(std::floor(left), window_.x0, window_.x1), cut(std::ceil(right), window_.x0, window_.x1),
+            cut(std::floor(top), window_.y0, window_.y1), cut(std::ceil(bottom), window_.y0, window_.y1)};
 }
 
 void Raster::blend(std::size_t pixel, Rgb color, std::uint32_t part) {

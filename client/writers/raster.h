@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace headrace::client {
 
 class Raster {
   public:
-    Raster(int width, int height, const Camera& camera);
+    // `clip`: nothing is drawn beyond it. [px]
+    Raster(int width, int height, const Camera& camera, const std::optional<Viewport>& clip = {});
 
     void clear(Rgb color);  // infinitely far
 
@@ -49,6 +51,7 @@ class Raster {
 
     static constexpr int kOversampling = 2;  // in each direction
     int width_, height_;                     // of the buffers
+    Range window_;                           // of the buffers, where anything is drawn
     Camera camera_;                          // in pictures pixels
     Camera fine_;                            // in buffer pixels
     std::vector<float> nearness_;            // of the nearest opaque surface

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "proto/shape_bounds.h"
@@ -44,18 +43,8 @@ double stated_speed(const proto::ScalarVec3& velocity) {
     return length(stated);
 }
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr BoxDesc kNothing{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-
-void include(BoxDesc& bounds, const BoxDesc& box) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        bounds.min[k] = std::min(bounds.min[k], box.min[k]);
-        bounds.max[k] = std::max(bounds.max[k], box.max[k]);
-    }
-}
-
 BoxDesc container_bounds(const std::vector<proto::ObjectDesc>& objects) {
-    BoxDesc bounds = kNothing;
+    BoxDesc bounds = kNowhere;
     for (const proto::ObjectDesc& object : objects)
         if (object.role == proto::ObjectRole::container && !is_plane(object.shape))
             include(bounds, bounding_box(object.shape));
@@ -66,7 +55,7 @@ BoxDesc container_bounds(const std::vector<proto::ObjectDesc>& objects) {
 double fall_height(const SceneDesc& scene) {
     const Vec3 up = up_axis(scene);
     const BoxDesc bounds = visible_bounds(scene);
-    BoxDesc fluid = kNothing;
+    BoxDesc fluid = kNowhere;
     for (const proto::FluidDesc& desc : scene.fluids)
         include(fluid, desc.particles ? bounds : bounding_box(desc.shape));
     if (scene.fluids.empty()) fluid = bounds;
@@ -103,7 +92,7 @@ BoxDesc visible_bounds(const SceneDesc& scene) {
         if (!fluid.particles) include(bounds, bounding_box(fluid.shape));
     for (const proto::ObjectDesc& object : scene.objects)
         if (object.role == proto::ObjectRole::obstacle && !is_plane(object.shape))
-            include(bounds, inside_containers(bounding_box(object.shape), scene.objects));
+            include(bounds, common_part(bounding_box(object.shape), container_bounds(scene.objects)));
     if (bounds.min[0] > bounds.max[0]) bounds = {scene.domain.min, scene.domain.max};
     for (std::size_t k = 0; k < 3; ++k) {
         if (k == 2 && scene.dimensions == 2) bounds.min[k] = bounds.max[k] = 0;
@@ -112,84 +101,6 @@ BoxDesc visible_bounds(const SceneDesc& scene) {
         if (!is_flat_by_design && !(bounds.max[k] > bounds.min[k])) bounds.max[k] = bounds.min[k] + 1;
     }
     return bounds;
-}
-
-std::vector<Vec3> visible_outline(const SceneDesc& scene) {
-    const BoxDesc bounds = visible_bounds(scene);
-    std::vector<Vec3> points;
-    // A lone sphere contains everything: its cube would waste a quarter of the picture.
-    if (scene.objects.size() == 1 && scene.objects[0].role == proto::ObjectRole::container)
-        if (const auto* sphere = std::get_if<proto::SphereDesc>(&scene.objects[0].shape)) {
-            const double equator = scene.dimensions == 2 ? 0 : 1;
-            constexpr int kSteps = 64;
-            for (int i = 0; i < kSteps; ++i)
-                for (int j = 0; j <= kSteps; ++j) {
-                    const double around = 2 * std::numbers::pi * i / kSteps;
-                    const double polar = std::numbers::pi * j / kSteps;
-                    points.push_back(sphere->center +
-                                     sphere->radius * Vec3{std::sin(polar) * std::cos(around), std::cos(polar),
-                                                           equator * std::sin(polar) * std::sin(around)});
-                }
-            return points;
-        }
-    for (int k = 0; k < 8; ++k) points.push_back(box_corner(bounds, k));
-    return points;
-}
-
-proto::Status check_view(const SceneDesc& scene, const ViewOptions& view) {
-    if (!view.position || scene.dimensions == 2) return proto::Done{};
-    const BoxDesc bounds = visible_bounds(scene);
-    const Vec3 backward = *view.position - view.target.value_or(0.5 * (bounds.min + bounds.max));
-    const double slack = 1e-6 * length(bounds.max - bounds.min);
-    if (!(length(backward) > slack))
-        return proto::Error{proto::ErrorCode::invalid_params, "the eye is where it looks at", "--camera",
-                            "give --camera and --target two places"};
-    const Vec3 up = view.up.value_or(up_axis(scene));
-    if (!(length(cross(up, backward)) > 1e-6 * length(up) * length(backward)))
-        return proto::Error{proto::ErrorCode::invalid_params, "the eye looks along the direction upwards", "--up",
-                            "give another direction"};
-    for (const Vec3& point : visible_outline(scene))
-        if (!(dot(*view.position - point, normalized(backward)) > slack))
-            return proto::Error{proto::ErrorCode::invalid_params, "a part of the scene is behind the eye", "--camera",
-                                "move it away from the scene, which reaches from scene.domain's min to max at most"};
-    return proto::Done{};
-}
-
-Camera make_camera(const SceneDesc& scene, const ViewOptions& view, const Viewport& viewport) {
-    const std::vector<Vec3> outline = visible_outline(scene);
-    const Vec3 up = up_axis(scene);
-    if (scene.dimensions == 2) return Camera::orthographic(outline, up, viewport);
-    const BoxDesc bounds = visible_bounds(scene);
-    const Vec3 middle = 0.5 * (bounds.min + bounds.max);
-    if (view.position)
-        return Camera::looking(outline, view.position, *view.position - view.target.value_or(middle),
-                               view.up.value_or(up), viewport);
-    const Camera front = Camera::orthographic(outline, up, viewport);
-    switch (view.name) {
-        case ViewName::front:
-            return front;
-        case ViewName::side:
-            return Camera::looking(outline, {}, front.right(), up, viewport);
-        case ViewName::top:
-            return Camera::looking(outline, {}, up, -1 * front.backward(), viewport);
-        case ViewName::iso:
-            return Camera::looking(outline, {}, front.right() + up + front.backward(), up, viewport);
-        case ViewName::standard:
-            break;
-    }
-    return Camera::perspective(outline, up, viewport);
-}
-
-BoxDesc inside_containers(const BoxDesc& box, const std::vector<proto::ObjectDesc>& objects) {
-    const BoxDesc containers = container_bounds(objects);
-    BoxDesc inside = box;
-    for (std::size_t k = 0; k < 3; ++k) {
-        inside.min[k] = std::max(box.min[k], containers.min[k]);
-        inside.max[k] = std::min(box.max[k], containers.max[k]);
-        // Outside altogether, or nothing contains: shown as it is.
-        if (inside.min[k] > inside.max[k]) return box;
-    }
-    return inside;
 }
 
 double particle_radius(const SceneDesc& scene) {

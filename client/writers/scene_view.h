@@ -1,10 +1,9 @@
-// What a picture needs to know of a scene: where up is, what to show, how large particles are and which range of
-// colours makes sense. All of it is fixed for a recording, so that its pictures compare.
+// What a picture needs to know of a scene: where up is, what there is to see, how large particles are and which range
+// of colours makes sense. All of it is fixed for a recording, so that its pictures compare.
 #pragma once
 
 #include <vector>
 
-#include "client/writers/camera.h"
 #include "client/writers/palette.h"
 #include "client/writers/writer.h"
 
@@ -23,18 +22,6 @@ Vec3 up_axis(const proto::SceneDesc& scene);
 // Containers, with the fluids and the obstacles inside them; the fluids and obstacles alone where nothing contains
 // them.
 proto::BoxDesc visible_bounds(const proto::SceneDesc& scene);
-
-// Points around all that is visible: corners of boxes, surfaces of spheres.
-std::vector<Vec3> visible_outline(const proto::SceneDesc& scene);
-
-// Errors: invalid_params for an eye that cannot see all that is visible, or does not know where up is.
-proto::Status check_view(const proto::SceneDesc& scene, const ViewOptions& view);
-
-// Precondition: check_view. Sees all that is visible, from where the options say.
-Camera make_camera(const proto::SceneDesc& scene, const ViewOptions& view, const Viewport& viewport);
-
-// The part of an object's box that is inside the containers: a panel may reach through walls, which cannot matter.
-proto::BoxDesc inside_containers(const proto::BoxDesc& box, const std::vector<proto::ObjectDesc>& objects);
 
 // [m] Radius of the sphere (2D: disc) that holds a particle's mass at rest density: Staubach 2010, Eq. 3.5.
 double particle_radius(const proto::SceneDesc& scene);

@@ -1,5 +1,6 @@
 // ParaView files: per frame <stem>_000123.vtp with the particles as vertices, <stem>_objects_000000.vtp whenever the
-// collision objects change, and <stem>.pvd that gives both a simulated time (parts 0 and 1).
+// collision objects change or move, and <stem>.pvd that gives both a simulated time (parts 0 and 1).
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -35,11 +36,11 @@ VtpArray make_array(const FrameColumn& column, std::size_t rows) {
     return array;
 }
 
-bool same_objects(const std::vector<proto::ObjectDesc>& a, const std::vector<proto::ObjectDesc>& b) {
-    if (a.size() != b.size()) return false;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        if (a[k].name != b[k].name || a[k].role != b[k].role || a[k].shape != b[k].shape) return false;
-    return true;
+bool same_objects(const std::vector<PlacedObject>& a, const std::vector<PlacedObject>& b) {
+    return std::ranges::equal(a, b, [](const PlacedObject& one, const PlacedObject& other) {
+        return one.desc.name == other.desc.name && one.desc.role == other.desc.role &&
+               one.desc.shape == other.desc.shape && one.place == other.place;
+    });
 }
 
 // `radius`: of a particle when drawn. [m]
@@ -110,7 +111,7 @@ class VtpWriter final : public Writer {
     std::string summary() const override { return "open " + collection_path().string() + " in ParaView"; }
 
   private:
-    proto::Status write_objects(const std::vector<proto::ObjectDesc>& objects, int dimensions) {
+    proto::Status write_objects(const std::vector<PlacedObject>& objects, int dimensions) {
         if (same_objects(objects, objects_)) return proto::Done{};
         const std::string name = numbered_name(options_.stem + "_objects", object_files_, "vtp");
         auto done = write_vtp(options_.folder / name, make_object_mesh(objects, dimensions));
@@ -138,10 +139,10 @@ class VtpWriter final : public Writer {
     std::filesystem::path collection_path() const { return options_.folder / (options_.stem + ".pvd"); }
 
     WriterOptions options_;
-    double radius_;                           // [m] of a particle
-    std::string entries_;                     // of the collection, so far
-    std::vector<proto::ObjectDesc> objects_;  // in object_file_
-    std::string object_file_;                 // empty: there were no objects yet
+    double radius_;                      // [m] of a particle
+    std::string entries_;                // of the collection, so far
+    std::vector<PlacedObject> objects_;  // in object_file_
+    std::string object_file_;            // empty: there were no objects yet
     std::size_t frames_{0}, object_files_{0};
     bool is_finished_{false};
 };

@@ -6,6 +6,7 @@
 
 #include "client/writers/formats.h"
 #include "client/writers/scene_view.h"
+#include "client/writers/stage.h"
 #include "proto/suggest.h"
 
 namespace headrace::client {
@@ -42,6 +43,9 @@ proto::Status check_picture(const PictureOptions& picture) {
     for (const auto& end : {picture.color_min, picture.color_max})
         if (end && !std::isfinite(*end))
             return Error{ErrorCode::invalid_params, "the ends of the colour scale must be finite", "picture", ""};
+    if (!(picture.view.zoom >= 0.01 && picture.view.zoom <= 1000))
+        return Error{ErrorCode::invalid_params, "a zoom is between 0.01 and 1000", "picture.view.zoom",
+                     "1 shows all, 2 half of it twice as large"};
     if (!(picture.fps >= 1 && picture.fps <= 240))
         return Error{ErrorCode::invalid_params, "films have 1 to 240 pictures a second", "picture.fps", ""};
     if (picture.color_min && picture.color_max && !(*picture.color_min < *picture.color_max))
@@ -57,7 +61,7 @@ std::vector<FormatInfo> writer_formats() {
     return formats;
 }
 
-proto::Status Writer::write(const proto::FrameView& frame, const std::vector<proto::ObjectDesc>& objects) {
+proto::Status Writer::write(const proto::FrameView& frame, const std::vector<PlacedObject>& objects) {
     auto rest = prepare({frame, written_++, objects});
     return rest ? (*rest)() : proto::Status(rest.error());
 }
@@ -77,8 +81,7 @@ proto::Result<std::unique_ptr<Writer>> make_writer(std::string_view format, cons
     if (const proto::Status checked = check_picture(options.picture); !checked) return checked.error();
 
     if (found->info.is_picture)
-        if (const proto::Status checked = check_view(options.scene, options.picture.view); !checked)
-            return checked.error();
+        if (const proto::Status checked = check_view(options); !checked) return checked.error();
     if (format == "mp4" && !has_ffmpeg())
         return Error{ErrorCode::file_error, "films need ffmpeg, which is not installed", "format",
                      "apt-get install ffmpeg, or choose the format png"};

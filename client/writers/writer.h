@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "client/writers/palette.h"
+#include "client/writers/placed_object.h"
 #include "proto/frame.h"
 #include "proto/result.h"
 #include "proto/scene_desc.h"
@@ -21,11 +23,21 @@ namespace headrace::client {
 enum class ViewName { standard, front, side, top, iso };
 inline constexpr std::array<std::string_view, 5> kViewNames{"standard", "front", "side", "top", "iso"};
 
-// From where a 3D scene is seen; always as large as it fits. 2D scenes are seen from the front.
+// From where a 3D scene is seen and how much of it, as large as it fits. 2D scenes are seen from the front.
 struct ViewOptions {
     ViewName name{ViewName::standard};      // standard: from the front, a little from the right and above
     std::optional<proto::Vec3> position;    // [m] of the eye, instead of the name
     std::optional<proto::Vec3> target, up;  // looked at, upwards; absent: the middle, against gravity
+    std::optional<proto::BoxDesc> crop;     // [m] what fills the picture; 2D: without regard to z
+    bool whole{false};                      // without `crop`: all of the scene, also where no fluid ever comes
+    double zoom{1};                         // so many times as large, about the target or the picture's middle
+};
+
+// What the frames of a conversion reach. [m]
+struct Extents {
+    proto::BoxDesc fluid{kNowhere};       // but for a little spray
+    proto::BoxDesc containers{kNowhere};  // planes left out, here and below
+    std::map<std::string, proto::BoxDesc> obstacles;
 };
 
 // How pictures look; other formats ignore it.
@@ -46,14 +58,15 @@ struct WriterOptions {
     std::string stem;              // files are <stem>_000123.vtp and the like
     proto::SceneDesc scene;
     std::size_t expected_frames{0};  // 0: not known, and frames come one after the other; spreads the contact sheet
+    std::optional<Extents> extents;  // absent: not known, and pictures show all of the scene
     PictureOptions picture;
 };
 
 // One frame of a conversion.
 struct FrameTask {
     const proto::FrameView& frame;
-    std::size_t number{};                           // among the frames converted, from 0
-    const std::vector<proto::ObjectDesc>& objects;  // of this frame, after events and commands
+    std::size_t number{};                      // among the frames converted, from 0
+    const std::vector<PlacedObject>& objects;  // of this frame, after events and commands, where they stand then
 };
 
 // After an error the writer only wants to be destroyed; files of the frames before it are whole.
@@ -71,7 +84,7 @@ class Writer {
     virtual std::string summary() const = 0;  // for a person: what was written and how to open it
 
     // The same for frames that come one after the other.
-    proto::Status write(const proto::FrameView& frame, const std::vector<proto::ObjectDesc>& objects);
+    proto::Status write(const proto::FrameView& frame, const std::vector<PlacedObject>& objects);
 
   private:
     std::size_t written_{0};  // by write()

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "server/scene/curves.h"
-#include "server/scene/expressions.h"
+#include "proto/values/curves.h"
+#include "proto/values/expressions.h"
 #include "server/solver/parallel.h"
 
 namespace headrace::scene {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "server/scene/curves.h"
+#include "proto/values/motion.h"
 #include "server/scene/shapes.h"
 #include "server/scene/vectors.h"
 #include "server/solver/boundaries/primitives.h"
@@ -16,43 +16,32 @@ using proto::Vec3;
 
 namespace {
 
-// Turn by `angle` [rad] about the unit vector n (Rodrigues' formula), row by row.
-std::array<double, 9> rotation(double angle, const Vec3& n) {
-    const double c = std::cos(angle), s = std::sin(angle), d = 1.0 - c;
-    return {c + n[0] * n[0] * d,        n[0] * n[1] * d - n[2] * s, n[0] * n[2] * d + n[1] * s,
-            n[1] * n[0] * d + n[2] * s, c + n[1] * n[1] * d,        n[1] * n[2] * d - n[0] * s,
-            n[2] * n[0] * d - n[1] * s, n[2] * n[1] * d + n[0] * s, c + n[2] * n[2] * d};
-}
-
-struct Motion {
-    std::array<Curve, 3> displacement;  // [m]
-    Curve angle;                        // [rad]
-    bool turns{false};
-    Vec3 pivot{};
-    Vec3 axis{0.0, 0.0, 1.0};
+// The object's motion with what the walls want of it besides: rates, and how its surface slides.
+struct WallMotion {
+    Motion motion;
     std::array<Curve, 3> surface_velocity;  // [m/s]
 
     solver::RigidState operator()(double t) const {
         solver::RigidState state;
-        state.pivot = pivot;
+        state.pivot = motion.pivot;
         for (int k = 0; k < 3; ++k) {
-            const CurvePoint point = displacement[k].at(t);
+            const CurvePoint point = motion.displacement[k].at(t);
             state.translation[k] = point.value;
             state.velocity[k] = point.rate;
             state.acceleration[k] = point.acceleration;
             state.surface_velocity[k] = surface_velocity[k].value(t);
         }
-        if (!turns) return state;
-        const CurvePoint turn = angle.at(t);
-        state.rotation = rotation(turn.value, axis);
-        state.angular_velocity = scaled(turn.rate, axis);
-        state.angular_acceleration = scaled(turn.acceleration, axis);
+        if (!motion.angle) return state;
+        const CurvePoint turn = motion.angle->at(t);
+        state.rotation = rotation(turn.value, motion.axis);
+        state.angular_velocity = scaled(turn.rate, motion.axis);
+        state.angular_acceleration = scaled(turn.acceleration, motion.axis);
         return state;
     }
 };
 
 // What of the motion is bad at t = 0, as the member's name; nothing when it is finite.
-std::optional<std::string> find_bad_start(const Motion& motion) {
+std::optional<std::string> find_bad_start(const WallMotion& motion) {
     const solver::RigidState state = motion(0.0);
     const auto is_finite = [](const Vec3& v) { return std::isfinite(v[0] + v[1] + v[2]); };
     if (!is_finite(state.translation) || !is_finite(state.velocity) || !is_finite(state.acceleration))
@@ -64,30 +53,13 @@ std::optional<std::string> find_bad_start(const Motion& motion) {
     return {};
 }
 
-Result<Motion> make_motion(const proto::ObjectDesc& object, int dimensions, double spacing, const std::string& path) {
-    Motion motion;
+Result<WallMotion> make_motion(const proto::ObjectDesc& object, int dimensions, double spacing,
+                               const std::string& path) {
+    WallMotion motion;
     if (object.motion) {
-        const proto::MotionDesc& desc = *object.motion;
-        if (desc.displacement) {
-            auto curves = make_curves(*desc.displacement, dimensions, spacing, path + ".motion.displacement");
-            if (!curves) return curves.error();
-            motion.displacement = std::move(*curves);
-        }
-        if (desc.angle) {
-            auto curve = make_curve(*desc.angle, spacing, path + ".motion.angle");
-            if (!curve) return curve.error();
-            motion.angle = std::move(*curve);
-            motion.turns = true;
-        }
-        motion.pivot = desc.pivot;
-        if (dimensions == 3) {
-            if (!(norm(desc.axis) > 0.0) || !std::isfinite(norm(desc.axis)))
-                return Error{ErrorCode::scene_invalid, "must be finite and not zero", path + ".motion.axis",
-                             "give a direction, of any length"};
-            motion.axis = normalized(desc.axis);
-        }
-        if (!std::isfinite(norm(desc.pivot)))
-            return Error{ErrorCode::scene_invalid, "must be finite", path + ".motion.pivot", "give lengths in m"};
+        auto made = Motion::make(*object.motion, dimensions, spacing, path + ".motion");
+        if (!made) return made.error();
+        motion.motion = *std::move(made);
     }
     if (object.surface_velocity) {
         auto curves = make_curves(*object.surface_velocity, dimensions, spacing, path + ".surface_velocity");
@@ -111,7 +83,7 @@ Result<solver::CollisionObject> make_collision_object(const proto::ObjectDesc& o
     if (object.slip)
         collision.slip = *object.slip == proto::WallSlip::free_slip ? solver::Slip::free_slip : solver::Slip::no_slip;
     if (object.motion || object.surface_velocity) {
-        Result<Motion> motion = make_motion(object, dimensions, spacing, path);
+        Result<WallMotion> motion = make_motion(object, dimensions, spacing, path);
         if (!motion) return motion.error();
         collision.motion = std::move(*motion);
         collision.is_belt = !object.motion;

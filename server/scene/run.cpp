@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "proto/suggest.h"
+#include "proto/values/expressions.h"
 #include "server/scene/body_force.h"
 #include "server/scene/collision_objects.h"
-#include "server/scene/expressions.h"
 #include "server/scene/particle_file.h"
 #include "server/scene/shapes.h"
 #include "server/scene/starts.h"

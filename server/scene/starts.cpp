@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/scene/expressions.h"
+#include "proto/values/expressions.h"
 #include "server/scene/sampling.h"
 #include "server/scene/shapes.h"
 #include "server/scene/validate.h"

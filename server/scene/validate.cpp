@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "proto/suggest.h"
+#include "proto/values/expressions.h"
 #include "server/scene/body_force.h"
 #include "server/scene/collision_objects.h"
-#include "server/scene/expressions.h"
 #include "server/scene/sampling.h"
 #include "server/scene/shapes.h"
 #include "server/solver/models/registry.h"

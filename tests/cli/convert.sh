@@ -11,7 +11,9 @@ cat >flat.json <<'JSON'
  "parameters": {"gravity": [0, -9.81]},
  "domain": {"min": [-0.1, -0.1], "max": [0.5, 0.5]},
  "fluids": [{"name": "block", "shape": {"box": {"min": [0, 0], "max": [0.2, 0.2]}}}],
- "objects": [{"name": "tank", "role": "container", "shape": {"box": {"min": [0, 0], "max": [0.4, 0.4]}}}],
+ "objects": [{"name": "tank", "role": "container", "shape": {"box": {"min": [0, 0], "max": [0.4, 0.4]}}},
+             {"name": "lid", "role": "obstacle", "shape": {"box": {"min": [0.3, 0.25], "max": [0.34, 0.29]}},
+              "motion": {"displacement": [0, "t"]}}],
  "output": {"interval": 0.01, "fields": ["id", "position", "velocity", "density", "pressure"]}}
 JSON
 "$headrace" run flat.json --until 0.1 --out . --format '' >run.txt 2>&1 || fail "run: $(cat run.txt)"
@@ -24,9 +26,18 @@ for ending in vtp csv npz ply; do
 done
 
 # The files do not depend on the number of jobs, pictures included.
-for jobs in 1 3; do convert --format $formats,png --size 320x240 --jobs $jobs --out jobs$jobs >notes 2>&1 || fail "$(cat notes)"; done
+pictures=png,pov
+if command -v ffmpeg >/dev/null 2>&1; then pictures+=,mp4; fi
+for jobs in 1 3; do convert --format $formats,$pictures --size 320x240 --jobs $jobs --out jobs$jobs >notes 2>&1 || fail "$(cat notes)"; done
 diff -r jobs1 jobs3 || fail "1 and 3 jobs write different files"
 find . -name '*.part' | grep -q . && fail "temporary files are left"
+
+# A moving object stands in each file where it did at its time: the lid rises from 0.25 m by 1 m/s for 0.1 s. POV-Ray's
+# matrix ends with the box's lower corner; a rounding, and the thousandth that solids are drawn smaller.
+[ "$(find jobs1 -name 'flat_objects_*.vtp' | wc -l)" = 11 ] || fail "not 11 files of objects: $(ls jobs1)"
+lid_height() { sed -n '/^\/\/ lid$/{n;s/.*,\([0-9.]*\),-[0-9.e-]*> texture.*/\1/p}' "$1"; }
+[[ $(lid_height jobs1/flat_000000.pov) =~ ^0\.250 ]] || fail "the lid begins at $(lid_height jobs1/flat_000000.pov)"
+[[ $(lid_height jobs1/flat_000010.pov) =~ ^0\.35[0-2] ]] || fail "the lid ends at $(lid_height jobs1/flat_000010.pov)"
 
 # Some particles, some fields, some frames.
 expect_result 0 '3 files part/flat_\*\.csv.*' convert --format csv --out part --fields id,density --region 0,0,0.1,0.05 \
@@ -47,6 +58,12 @@ expect 2 'error usage \(--to\): the range ends before it begins; .*' convert --f
 expect 2 'error usage \(--format\): did you mean "npz"\?' convert --format npx --out none
 expect 2 'error usage \(--format\): png files need the field acceleration; .*' \
     convert --format png --color-by acceleration --out none
+expect 2 'error usage \(--crop\): "here" is no part of a scene; .*' convert --format png --out none --crop here
+expect 2 'error invalid_params \(--crop\): .*' convert --format png --out none --crop 0.2,0,0.1,0.2
+expect 2 'error invalid_params \(picture\.view\.zoom\): .*' convert --format png --out none --zoom 0
+# Numbers are refused in few words.
+expect 2 'error usage \(--fps\): "abc" is no number; .{1,80}' convert --format png --out none --fps abc
+expect 2 'error usage: --every: "0" is no number above 0; .{1,80}' convert --format png --out none --every 0
 [ ! -e none ] || fail "a refused conversion left $(ls none)"
 mkdir taken
 mkdir taken/flat_long.csv

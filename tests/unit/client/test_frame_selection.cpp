@@ -31,3 +31,24 @@ TEST_CASE("FrameSelection.FieldsKeepTheirOrderAndBytes") {
     REQUIRE(part.columns.size() == 1);
     CHECK(part.columns[0].bytes.data() == frame.view().columns[1].bytes.data());
 }
+
+// A thousand particles in a row, two of them far away: two in a thousand are spray.
+TEST_CASE("FrameSelection.BoundsLeaveOutTheSpray") {
+    std::vector<float> places;
+    for (int k = 0; k < 1000; ++k) {
+        places.push_back(k < 2 ? 100.0f : static_cast<float>(k) / 1000);
+        places.push_back(0.5f);
+    }
+    SyntheticFrame frame(2, 1000, 0);
+    frame.column<float>(Field::position, "<f4", 2, places);
+    const proto::BoxDesc bounds = client::bounds_without_spray(frame.view());
+    CHECK(bounds.max[0] < 1);
+    CHECK(bounds.max[0] > 0.99);
+    CHECK(bounds.min[0] < 0.01);
+    CHECK(bounds.min[1] == 0.5);
+    CHECK(bounds.min[2] == 0);
+
+    SyntheticFrame empty(2, 0, 0);
+    empty.column<float>(Field::position, "<f4", 2, {});
+    CHECK(client::bounds_without_spray(empty.view()).min[0] > client::bounds_without_spray(empty.view()).max[0]);
+}

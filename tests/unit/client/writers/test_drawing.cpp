@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "client/writers/annotations.h"
 #include "client/writers/palette.h"
@@ -185,16 +186,16 @@ TEST_CASE("ColorBar.TicksAreRoundAndWithinTheScale") {
 
 TEST_CASE("SceneRenderer.ARemovedPanelChangesNothingElse") {
     const proto::SceneDesc scene = tank_scene();
-    SceneRenderer renderer(scene, {}, 320, 240, {10, 10, 300, 220});
+    SceneRenderer renderer(scene, make_stage(scene), {}, 320, 240, {10, 10, 300, 220});
     const std::vector<Vec3> particles{{0.1, 0.1, 0.1}, {0.8, 0.05, 0.3}};
     const std::vector<float> values{0.2f, 0.9f};
-    const Image with = renderer.draw(particles, values, scene.objects);
-    const Image without = renderer.draw(particles, values, {scene.objects[0]});
+    const Image with = renderer.draw(particles, values, at_rest(scene.objects));
+    const Image without = renderer.draw(particles, values, at_rest({scene.objects[0]}));
 
     // The panel is drawn where it is inside the tank; its edges are 1.3 px wide.
-    const proto::BoxDesc panel = inside_containers(std::get<proto::BoxDesc>(scene.objects[1].shape), scene.objects);
-    CHECK(panel.max[1] == 0.8);
-    const Viewport region = renderer.camera().covered(corners(panel));
+    const Block panel = visible_block(scene.objects[1], at_rest(scene.objects));
+    CHECK(panel.corners[7][1] == 0.8);
+    const Viewport region = renderer.camera().covered(panel.corners);
     int changed = 0;
     for (int y = 0; y < with.height; ++y)
         for (int x = 0; x < with.width; ++x) {
@@ -208,27 +209,82 @@ TEST_CASE("SceneRenderer.ARemovedPanelChangesNothingElse") {
     CHECK(changed > 100);
 }
 
-// A round log seen from the side covers its rectangle; a plane has no end and is not drawn.
-TEST_CASE("SceneRenderer.CylindersAreDrawnAndPlanesAreNot") {
+// A round log seen from the side covers its rectangle.
+TEST_CASE("SceneRenderer.CylindersAreDrawn") {
     const proto::SceneDesc scene = tank_scene();
-    SceneRenderer renderer(scene, {}, 320, 240, {10, 10, 300, 220});
+    SceneRenderer renderer(scene, make_stage(scene), {}, 320, 240, {10, 10, 300, 220});
     const proto::ObjectDesc log{"log", proto::ObjectRole::obstacle,
                                 proto::CylinderDesc{{0.2, 0.4, 0.2}, {0.8, 0.4, 0.2}, 0.1}};
-    const proto::ObjectDesc floor{"floor", proto::ObjectRole::obstacle, proto::PlaneDesc{{0, 0, 0}, {0, 1, 0}}};
     const Image nothing = renderer.draw({}, {}, {}), with_log = renderer.draw({}, {}, {log});
     const Projected middle = renderer.camera().project({0.5, 0.4, 0.2});
     const int x = static_cast<int>(middle.x), y = static_cast<int>(middle.y);
     CHECK(difference(with_log.at(x, y), nothing.at(x, y)) > 30);
     const Projected above = renderer.camera().project({0.5, 0.65, 0.2});
     CHECK(with_log.at(static_cast<int>(above.x), static_cast<int>(above.y)) == nothing.at(x, y));
-    const Image with_floor = renderer.draw({}, {}, {floor});
-    CHECK(with_floor.at(x, y) == nothing.at(x, y));
+}
+
+// Each object moved by its placement, seen at a point that it covers only there; nothing is left where it was.
+TEST_CASE("SceneRenderer.ObjectsAreDrawnWhereTheyStand") {
+    for (const int dimensions : {2, 3}) {
+        proto::SceneDesc scene = tank_scene();
+        scene.dimensions = dimensions;
+        SceneRenderer renderer(scene, make_stage(scene), {}, 320, 240, {10, 10, 300, 220});
+        const double z = dimensions == 2 ? 0 : 0.2;
+        const auto seen_at = [&](const Image& image, const Vec3& x) {
+            const Projected p = renderer.camera().project(x);
+            return image.at(static_cast<int>(p.x), static_cast<int>(p.y));
+        };
+        scene::Placement moved;
+        moved.translation = {0.5, 0.3, 0};
+        // Up the panel's middle it is a quarter turn about its foot that lays it down.
+        scene::Placement laid{{0.2, 0.2, z}, {}, scene::rotation(-std::numbers::pi / 2, {0, 0, 1})};
+        const Vec3 before{0.2, 0.4, z};
+        const proto::BoxDesc panel{{0.17, 0.2, z - 0.03}, {0.23, 0.6, z + 0.03}};
+        const Image nothing = renderer.draw({}, {}, {});
+        for (const auto& [shape, place, after] : std::vector<std::tuple<proto::ShapeDesc, scene::Placement, Vec3>>{
+                 {panel, moved, {0.7, 0.7, z}},
+                 {panel, laid, {0.4, 0.2, z}},
+                 {proto::SphereDesc{before, 0.06}, moved, {0.7, 0.7, z}},
+                 {proto::SphereDesc{before, 0.06}, laid, {0.4, 0.2, z}}}) {
+            const PlacedObject object({"body", proto::ObjectRole::obstacle, shape}, place);
+            const Image image = renderer.draw({}, {}, {object});
+            CHECK(difference(seen_at(image, after), seen_at(nothing, after)) > 30);
+            CHECK(seen_at(image, before) == seen_at(nothing, before));
+        }
+    }
+}
+
+// A floor is a sheet as large as the scene, a little larger than the fluid's box and no more.
+TEST_CASE("SceneRenderer.PlanesAreDrawnAsFarAsTheSceneGoes") {
+    proto::SceneDesc scene = tank_scene();
+    scene.objects.clear();
+    SceneRenderer renderer(scene, make_stage(scene), {}, 320, 240, {60, 60, 200, 120});
+    const proto::ObjectDesc floor{"floor", proto::ObjectRole::obstacle, proto::PlaneDesc{{0, 0, 0}, {0, 2, 0}}};
+    const Image nothing = renderer.draw({}, {}, {}), with_floor = renderer.draw({}, {}, {floor});
+    const Projected inside = renderer.camera().project({0.15, 0, 0.2});
+    CHECK(difference(with_floor.at(static_cast<int>(inside.x), static_cast<int>(inside.y)), kPaper) > 30);
+    for (const int y : {2, 238})
+        for (int x = 0; x < 320; ++x) CHECK(with_floor.at(x, y) == nothing.at(x, y));
+}
+
+TEST_CASE("PlaneInBox.IsAConvexPolygonOnThePlane") {
+    const proto::PlaneDesc oblique{{0.5, 0.5, 0.5}, {1, 2, 3}};
+    const auto cut = plane_in_box(oblique, {{0, 0, 0}, {1, 1, 1}});
+    REQUIRE(cut.size() >= 3);
+    const Vec3 normal = normalized(oblique.normal);
+    for (std::size_t k = 0; k < cut.size(); ++k) {
+        CHECK(dot(cut[k] - oblique.point, normal) == Approx(0).margin(1e-12));
+        const Vec3 a = cut[(k + 1) % cut.size()] - cut[k], b = cut[(k + 2) % cut.size()] - cut[(k + 1) % cut.size()];
+        CHECK(dot(cross(a, b), normal) > 0);  // always the same way round
+    }
+    CHECK(plane_in_box({{0, 5, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 1, 1}}).empty());
+    CHECK(plane_in_box({{0, 0.5, 0}, {1, 1, 0}}, {{0, 0, 0}, {1, 1, 0}}).size() == 2);  // 2D: a line's ends
 }
 
 TEST_CASE("SceneRenderer.ParticleShowsTheColourOfItsValue") {
     proto::SceneDesc scene = tank_scene();
     scene.spacing = 0.1;  // large spheres
-    SceneRenderer renderer(scene, {proto::Field::pressure, 0, 10}, 320, 240, {10, 10, 300, 220});
+    SceneRenderer renderer(scene, make_stage(scene), {proto::Field::pressure, 0, 10}, 320, 240, {10, 10, 300, 220});
     const Vec3 place{0.5, 0.4, 0.4};
     const Projected seen = renderer.camera().project(place);
     const auto color_of = [&](float value) {

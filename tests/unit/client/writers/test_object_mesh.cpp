@@ -40,7 +40,7 @@ TEST_CASE("ObjectMesh.ACylinderIsClosedAndHasItsVolume") {
     const Vec3 from{0.3, -0.2, 1.0}, to{1.5, 0.7, 0.4};
     const double radius = 0.25, length = client::length(to - from);
     const VtpPiece piece =
-        make_object_mesh({{"log", proto::ObjectRole::obstacle, proto::CylinderDesc{from, to, radius}}}, 3);
+        make_object_mesh(at_rest({{"log", proto::ObjectRole::obstacle, proto::CylinderDesc{from, to, radius}}}), 3);
     // A prism over a regular polygon of n = 48 corners has sin(2 pi / n) n / (2 pi) of the circle's area: 0.29 % less.
     CHECK(std::abs(enclosed_volume(piece)) == Approx(M_PI * radius * radius * length).epsilon(0.004));
     for (const Vec3& x : points_of(piece)) {
@@ -53,8 +53,8 @@ TEST_CASE("ObjectMesh.ACylinderIsClosedAndHasItsVolume") {
 
 TEST_CASE("ObjectMesh.PlanesHaveNoPolygonButStayInTheList") {
     const VtpPiece piece =
-        make_object_mesh({{"floor", proto::ObjectRole::obstacle, proto::PlaneDesc{{0, 0, 0}, {0, 1, 0}}},
-                          {"box", proto::ObjectRole::obstacle, proto::BoxDesc{{0, 0, 0}, {1, 1, 1}}}},
+        make_object_mesh(at_rest({{"floor", proto::ObjectRole::obstacle, proto::PlaneDesc{{0, 0, 0}, {0, 1, 0}}},
+                                  {"box", proto::ObjectRole::obstacle, proto::BoxDesc{{0, 0, 0}, {1, 1, 1}}}}),
                          3);
     CHECK(piece.polys.offsets.size() == 6);
     CHECK(piece.names == std::vector<std::string>{"floor", "box"});

@@ -62,7 +62,8 @@ TEST_CASE("PictureWriter.EveryFrameBecomesAPictureOfTheWantedSize") {
     options.expected_frames = 5;
     auto writer = make_writer("png", options);
     REQUIRE(writer.ok());
-    for (int k = 0; k < 5; ++k) REQUIRE((*writer)->write(one_particle(0.01 * k).view(), options.scene.objects).ok());
+    for (int k = 0; k < 5; ++k)
+        REQUIRE((*writer)->write(one_particle(0.01 * k).view(), at_rest(options.scene.objects)).ok());
     REQUIRE((*writer)->finish().ok());
     CHECK(png_size(folder / "wave_000000.png") == std::pair{320, 180});
     CHECK(png_size(folder / "wave_000004.png") == std::pair{320, 180});

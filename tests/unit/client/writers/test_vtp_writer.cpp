@@ -186,7 +186,7 @@ TEST_CASE("VtpWriter.ObjectsAreWrittenOnlyWhenTheyChange") {
     const auto with_panel = tank_scene().objects;
     const std::vector without_panel{with_panel[0]};
     for (const auto& objects : {with_panel, with_panel, without_panel, without_panel})
-        REQUIRE((*writer)->write(small_frame(0).view(), objects).ok());
+        REQUIRE((*writer)->write(small_frame(0).view(), client::at_rest(objects)).ok());
     REQUIRE((*writer)->finish().ok());
 
     std::vector<std::string> objects_files;
@@ -203,6 +203,27 @@ TEST_CASE("VtpWriter.ObjectsAreWrittenOnlyWhenTheyChange") {
     const auto corners = tank["Points"].values<double>();
     CHECK(corners.size() == 8 * 3);
     CHECK(*std::max_element(corners.begin(), corners.end()) == 1.0);
+}
+
+TEST_CASE("VtpWriter.AMovingObjectIsWrittenWhereItStandsAtEachTime") {
+    TemporaryFolder folder;
+    auto writer = make_writer("vtp", options_in(folder));
+    const proto::ObjectDesc block{"block", proto::ObjectRole::obstacle, proto::BoxDesc{{0, 0, 0}, {1, 1, 1}}};
+    for (const double height : {0.0, 0.25, 0.25}) {
+        scene::Placement place;
+        place.translation = {0, height, 0};
+        REQUIRE((*writer)->write(small_frame(height).view(), {{block, place}}).ok());
+    }
+    REQUIRE((*writer)->finish().ok());
+    const auto lowest = [&](const std::string& file) {
+        const auto points = read_vtp(folder / file)["Points"].values<double>();
+        double least = points.at(1);
+        for (std::size_t k = 1; k < points.size(); k += 3) least = std::min(least, points[k]);
+        return least;
+    };
+    CHECK(lowest("wave_objects_000000.vtp") == 0);
+    CHECK(lowest("wave_objects_000001.vtp") == 0.25);
+    CHECK_FALSE(std::filesystem::exists(folder / "wave_objects_000002.vtp"));  // it rests again
 }
 
 TEST_CASE("VtpWriter.CollectionSurvivesAnAbandonedConversion") {

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "proto/values/motion.h"
 #include "server/scene/collision_objects.h"
 #include "server/scene/vectors.h"
 
@@ -66,6 +67,24 @@ TEST_CASE("CollisionObject.FollowsItsDisplacement") {
     CHECK(state.velocity[1] == 0.0);
     CHECK(state.acceleration[0] == Approx(-0.4 * std::sin(0.6)).epsilon(1e-6));
     CHECK(state.rotation == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+}
+
+// Pictures show the wall where the fluid feels it.
+TEST_CASE("CollisionObject.StandsWhereClientsDrawIt") {
+    proto::ObjectDesc object = paddle();
+    object.motion->displacement = proto::TableDesc{{{0, 0, 0, 0}, {0.5, 0.1, 0.7, 0}, {1, 0.2, 0, 0.3}}};
+    object.motion->angle = proto::Scalar(std::string("0.4*sin(3*t)"));
+    object.motion->pivot = {0.3, -0.2, 0.1};
+    object.motion->axis = {1, 2, 3};
+    const auto drawn = scene::MovingObjects::make({object}, 3, 0.01);
+    REQUIRE(drawn.ok());
+    const auto motion = made(object).motion;
+    for (const double t : {0.0, 0.2, 0.77, 5.0}) {
+        const Vec3 corner{0.1, 1, 0};
+        const Vec3 gap = scene::minus(drawn->at(t)[0](corner), placed(motion(t), corner));
+        CHECK(scene::norm(gap) < 1e-14);  // the sums round in another order
+        CHECK((t == 0.0) == (placed(motion(t), corner) == corner));
+    }
 }
 
 TEST_CASE("CollisionObject.TurnsAboutItsPivot") {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "server/scene/tables.h"
+#include "proto/values/tables.h"
 
 using namespace headrace;
 using scene::Table;

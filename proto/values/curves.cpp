@@ -1,4 +1,4 @@
-#include "server/scene/curves.h"
+#include "proto/values/curves.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "server/scene/tables.h"
+#include "proto/values/tables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/scene/expressions.h"
+#include "proto/values/expressions.h"
 
 using namespace headrace;
 using scene::Formula;

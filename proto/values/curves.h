@@ -15,8 +15,8 @@
 
 #include "proto/result.h"
 #include "proto/scene_desc.h"
-#include "server/scene/expressions.h"
-#include "server/scene/tables.h"
+#include "proto/values/expressions.h"
+#include "proto/values/tables.h"
 
 namespace headrace::scene {
 

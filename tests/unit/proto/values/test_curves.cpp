@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "server/scene/curves.h"
+#include "proto/values/curves.h"
 
 using namespace headrace;
 using scene::Curve;

@@ -1,4 +1,4 @@
-#include "server/scene/expressions.h"
+#include "proto/values/expressions.h"
 
 #include <muParser.h>
 
