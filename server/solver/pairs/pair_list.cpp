@@ -137,6 +137,7 @@ void PairList<S>::Scratch::start_block() {
     groups.clear();
     ways.clear();
     entries.clear();
+    next_way = 0;
 }
 
 template <class S>
@@ -150,14 +151,16 @@ void PairList<S>::Scratch::finish_block(PairBlock<S>& block, bool needs_visibili
     if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
 }
 
-// From the last one on: centres that stand together see the same ways.
+// Centres that stand together see the same ways in the same order: mostly it is the one behind the last one asked for.
 template <class S>
 Index PairList<S>::Scratch::way_number(const PairWay<S>& way) {
-    for (std::size_t w = ways.size(); w > 0; --w) {
-        if (ways[w - 1] == way) return static_cast<Index>(w - 1);
+    for (std::size_t n = 0; n < ways.size(); ++n) {
+        if (next_way >= ways.size()) next_way = 0;
+        if (ways[next_way++] == way) return next_way - 1;
     }
     ways.push_back(way);
-    return static_cast<Index>(ways.size() - 1);
+    next_way = static_cast<Index>(ways.size());
+    return next_way - 1;
 }
 
 // Entries on one way are a group.

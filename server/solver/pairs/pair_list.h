@@ -99,6 +99,7 @@ class PairList {
         std::vector<PairWay<S>> ways;
         std::vector<PairEntry> entries, far;
         std::vector<Index> nearby, ways_of_centre;
+        Index next_way{};
         std::vector<std::uint16_t> far_seen;
 
         // The number of this way of the block.
