@@ -114,7 +114,8 @@ void print_status(const proto::SimStatusReply& status) {
     print_line(line);
     if (status.strategy) {
         const std::string busiest = busiest_stages(status.plan);
-        print_line("pairs: " + *status.strategy + (busiest.empty() ? "" : "; time in " + busiest));
+        const std::string threads = status.threads ? ", " + plural(*status.threads, "thread") : "";
+        print_line("pairs: " + *status.strategy + threads + (busiest.empty() ? "" : "; time in " + busiest));
     }
     if (status.diagnostics)
         print_line("max speed " + number(status.diagnostics->max_speed) + " m/s, kinetic energy " +

@@ -166,6 +166,7 @@ struct SimStatusReply {
     std::optional<std::string> model;
     // How its pairs are summed: scheme, precision, instruction set. Another one may change the last bits of a run.
     std::optional<std::string> strategy;
+    std::optional<std::int64_t> threads;  // that its steps take just now
     std::uint64_t step{};
     double time{};                // [s]
     double time_step{};           // [s] of the last step, or of the next one before the first

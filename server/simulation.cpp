@@ -7,6 +7,7 @@
 #include "server/fault_report.h"
 #include "server/publish/frame_builder.h"
 #include "server/simulation_impl.h"
+#include "server/solver/parallel.h"
 
 namespace headrace::server {
 
@@ -51,7 +52,10 @@ void Simulation::Impl::step() {
     if (run->step_number() == 0) fire_scene_events();  // those of step 0 and time 0
     if (!job) return;                                  // paused by one of them
     apply_due_parameters();
+    solver::team_limit = team.threads();
+    const auto start = Clock::now();
     const solver::StepReport& report = run->step();
+    team.note(std::chrono::duration<double>(Clock::now() - start).count());
     if (report.fault) {
         capture_due();  // who asked for frames sees the state that faulted
         return fault(report_of(*report.fault, place()));
@@ -88,8 +92,8 @@ SimState Simulation::Impl::state() const {
 }
 
 void Simulation::Impl::write_status() {
-    SimulationView view{state(),           run.get(), last_job,      stalled,
-                        loader.progress(), &probes,   hub.demands(), frame_seconds};
+    SimulationView view{state(),           run.get(), team.threads(), last_job,     stalled,
+                        loader.progress(), &probes,   hub.demands(),  frame_seconds};
     if (job)
         view.job = job->reply(proto::JobState::running, "", place());
     else if (paused)

@@ -25,6 +25,7 @@
 #include "server/scene_events.h"
 #include "server/simulation.h"
 #include "server/status_writer.h"
+#include "server/team_choice.h"
 
 namespace headrace::server {
 
@@ -148,6 +149,7 @@ struct Simulation::Impl {
     Inbox inbox;
 
     std::shared_ptr<scene::Run> run;
+    TeamChoice team{threads};  // of its steps
     Loader loader;
     Token load_token{0};
     std::vector<Token> load_cancels;

@@ -37,6 +37,7 @@ void Simulation::Impl::apply(Token, LoadFinished load) {
     if (paused) end_job(*std::exchange(paused, std::nullopt), {proto::JobState::cancelled, "another scene"});
     refuse_deferred({ErrorCode::cancelled, "another scene was loaded before that step", "params.at_step", ""});
     run = std::move(*load.run);
+    team = TeamChoice(threads);
     is_faulted = is_at_rest = is_overdue_reported = false;
     frame_seconds = 0.0;
     scene_events.restart();

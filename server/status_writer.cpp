@@ -110,6 +110,7 @@ void StatusWriter::write(const SimulationView& view) {
         status.scene = scene_->name;
         status.model = view.run->model().name();
         status.strategy = view.run->model().strategy();
+        status.threads = view.threads;
         status.step = view.run->step_number();
         status.time = view.run->time();
         status.time_step = view.run->model().time_step();

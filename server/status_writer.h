@@ -16,6 +16,7 @@ namespace headrace::server {
 struct SimulationView {
     proto::SimState state{proto::SimState::empty};
     const scene::Run* run{nullptr};
+    int threads{};  // of its steps
     std::optional<proto::JobReply> job;
     bool stalled{false};
     double load_progress{0.0};

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include "server/solver/parallel.h"
+
 namespace headrace::publish {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 template <class Value, class Source>
 void scatter(const solver::Particles& particles, std::byte* out, int components, int component, const Source& source) {
     const auto count = static_cast<std::ptrdiff_t>(particles.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) num_threads(solver::team_size())
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         const auto value = static_cast<Value>(source[static_cast<std::size_t>(i)]);
         const auto row =

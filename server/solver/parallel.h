@@ -15,8 +15,15 @@
 
 namespace headrace::solver {
 
+// Threads that a loop may have, now or later: how much scratch is needed.
 inline int max_threads() {
     return omp_get_max_threads();
+}
+
+// Threads that the loops of the calling thread take from now on, at most; 0: as many as they may have.
+inline thread_local int team_limit = 0;
+inline int team_size() {
+    return team_limit > 0 ? std::min(team_limit, max_threads()) : max_threads();
 }
 
 // Elements a block of a plain loop over particles has: long enough to hide the loop's overhead.
@@ -27,7 +34,7 @@ template <class Body>
 void parallel_for(std::size_t count, std::size_t block, Body&& body) {
     const auto blocks = static_cast<std::int64_t>((count + block - 1) / block);
     std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic) if (blocks > 1)
+#pragma omp parallel for schedule(dynamic) num_threads(team_size()) if (blocks > 1)
     for (std::int64_t b = 0; b < blocks; ++b) {
         try {
             const std::size_t begin = static_cast<std::size_t>(b) * block;

@@ -88,7 +88,7 @@ void NearbyClusters<S>::collect(std::size_t first, std::size_t end, const Extent
     ways_.clear();
     std::array<int, 3> image{};
     std::uint64_t key = 0;
-    Index way = ~Index{0};  // of that key and image
+    Index page = 0, way = ~Index{0};  // of that key, page and image
     ++look_;
     for_each_run_near(*setting_.order, *setting_.x, centres.dimensions(), begin, end_point, extent, setting_.reach,
                       [&](const SlotRun& run) {
@@ -103,8 +103,9 @@ void NearbyClusters<S>::collect(std::size_t first, std::size_t end, const Extent
                               stamp_[j] = look_;
                               // Those of a row are in few cubes.
                               const std::uint64_t of_j = neighbours.reference_key(j);
-                              if (of_j != key || way == ~Index{0}) {
+                              if (of_j != key || page_of(j) != page || way == ~Index{0}) {
                                   key = of_j;
+                                  page = page_of(j);
                                   way = way_to(j, key, image);
                               }
                               found_.push_back({j, way});
@@ -123,10 +124,11 @@ void NearbyClusters<S>::drop_repeated(std::vector<Candidate>& candidates) {
 
 template <class S>
 Index NearbyClusters<S>::way_to(std::size_t cluster, std::uint64_t key, const std::array<int, 3>& image) {
+    const Index page = page_of(static_cast<Index>(cluster));
     for (std::size_t w = 0; w < ways_.size(); ++w) {
-        if (ways_[w].key == key && ways_[w].image == image) return static_cast<Index>(w);
+        if (ways_[w].key == key && ways_[w].page == page && ways_[w].image == image) return static_cast<Index>(w);
     }
-    ways_.push_back({key, setting_.neighbours->reference(cluster), image});
+    ways_.push_back({key, page, setting_.neighbours->reference(cluster), image});
     return static_cast<Index>(ways_.size() - 1);
 }
 
@@ -143,6 +145,7 @@ void NearbyClusters<S>::sort_by_way(std::size_t base) {
     end_of_way_.resize(ways);
     for (std::size_t w = 0; w < ways; ++w) {
         to_way_[w].end = at_[w + 1];
+        to_way_[w].way.page = ways_[w].page;
         for (int k = 0; k < dimensions; ++k)
             shift_[w][k] = static_cast<float>(-offset_to(ways_[w], setting_.centres->reference(base), k));
     }
@@ -173,7 +176,7 @@ void NearbyClusters<S>::set_offsets(const std::array<std::int32_t, 3>& reference
     offsets_of_ = reference;
     for (std::size_t w = 0; w < ways_.size(); ++w) {
         for (int k = 0; k < setting_.centres->dimensions(); ++k)
-            to_way_[w].offset[k] = static_cast<S>(offset_to(ways_[w], reference, k));
+            to_way_[w].way.offset[k] = static_cast<S>(offset_to(ways_[w], reference, k));
     }
 }
 

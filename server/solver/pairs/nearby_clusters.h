@@ -1,7 +1,6 @@
 // The clusters near a few centre clusters that stand together, found once for all of them.
 //
-// They are sorted by the way that leads to them: from the centre's reference point and period to theirs. What a centre
-// cluster sees is then a selection of them, way by way.
+// They are sorted by the way that leads to them. What a centre cluster sees is then a selection of them, way by way.
 #pragma once
 
 #include <array>
@@ -71,6 +70,7 @@ class NearbyClusters {
   private:
     struct Way {
         std::uint64_t key{};  // of the reference point
+        Index page{};         // of the clusters
         std::array<std::int32_t, 3> reference{};
         std::array<int, 3> image{};
     };

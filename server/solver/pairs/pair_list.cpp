@@ -108,8 +108,7 @@ template <class S>
 void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, const VectorField& x,
                               const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) {
     PairBlock<S>& block = blocks_[b];
-    scratch.groups.clear();
-    scratch.entries.clear();
+    scratch.start_block();
     const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
     for (std::size_t c = first; c < last; ++c) {
         const std::size_t begin = c * kClusterSize, end = std::min(begin + kClusterSize, centres.size());
@@ -130,10 +129,38 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     }
     for (std::size_t c = last - first; c <= kMotionBlock; ++c)
         block.first_group[c] = static_cast<Index>(scratch.groups.size());
-    block.groups.assign(scratch.groups.begin(), scratch.groups.end());
-    block.entries.assign(scratch.entries.begin(), scratch.entries.end());
+    scratch.finish_block(block, needs_visibility);
+}
+
+template <class S>
+void PairList<S>::Scratch::start_block() {
+    groups.clear();
+    ways.clear();
+    entries.clear();
+    next_way = 0;
+}
+
+template <class S>
+void PairList<S>::Scratch::finish_block(PairBlock<S>& block, bool needs_visibility) {
+    const auto end = static_cast<Index>(entries.size());
+    groups.push_back({end, end, 0});
+    block.groups.assign(groups.begin(), groups.end());
+    block.ways.assign(ways.begin(), ways.end());
+    block.entries.assign(entries.begin(), entries.end());
     block.seen.clear();
     if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
+}
+
+// Centres that stand together see the same ways in the same order: mostly it is the one behind the last one asked for.
+template <class S>
+Index PairList<S>::Scratch::way_number(const PairWay<S>& way) {
+    for (std::size_t n = 0; n < ways.size(); ++n) {
+        if (next_way >= ways.size()) next_way = 0;
+        if (ways[next_way++] == way) return next_way - 1;
+    }
+    ways.push_back(way);
+    next_way = static_cast<Index>(ways.size());
+    return next_way - 1;
 }
 
 // Entries on one way are a group.
@@ -144,10 +171,13 @@ void PairList<S>::list_near(Scratch& scratch, std::size_t centre) {
     Index begin = 0;
     for (std::size_t w = 0; w < near.way_count; ++w) {
         const Index end = near.end_of_way[w];
-        if (end > begin) scratch.groups.push_back({base + begin, base + end, base + end, near.ways[w].offset});
+        if (end > begin) {
+            scratch.groups.push_back({base + begin, base + end, scratch.way_number(near.ways[w].way)});
+        }
         begin = end;
     }
-    scratch.entries.insert(scratch.entries.end(), near.clusters, near.clusters + begin);
+    scratch.entries.resize(base + begin);
+    for (Index n = 0; n < begin; ++n) scratch.entries[base + n] = static_cast<PairEntry>(near.clusters[n]);
 }
 
 template <class S>
@@ -159,9 +189,8 @@ void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clus
     blocks_.resize((centre_clusters + kMotionBlock - 1) / kMotionBlock);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
     std::vector<Index> first(blocks_.size() * kMotionBlock + 1, 0);  // of each centre's entries
-    for (const PairBlock<S>& block : list.blocks_) {
-        for (const Index j : block.entries) ++first[j + 1];
-    }
+    for (const PairBlock<S>& block : list.blocks_)
+        block.for_each_listed([&](std::size_t, Index j, Index) { ++first[j + 1]; });
     for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
     std::vector<Reverse> entries(first.back());
     std::vector<Index> next(first.begin(), first.end() - 1);
@@ -169,11 +198,12 @@ void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clus
         const PairBlock<S>& block = list.blocks_[b];
         for (std::size_t c = 0; c < kMotionBlock; ++c) {
             for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
-                const PairGroup<S>& group = block.groups[g];
+                const PairWay<S>& way = block.way(block.groups[g]);
                 const Reverse reverse{static_cast<Index>(b * kMotionBlock + c),
-                                      {-group.offset[0], -group.offset[1], -group.offset[2]},
+                                      {-way.offset[0], -way.offset[1], -way.offset[2]},
                                       !block.seen.empty()};
-                for (Index e = group.begin; e < group.listed_end; ++e) entries[next[block.entries[e]]++] = reverse;
+                for (Index e = block.groups[g].begin; e < block.listed_end(g); ++e)
+                    entries[next[way.page + block.entries[e]]++] = reverse;
             }
         }
     }
@@ -183,38 +213,36 @@ void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clus
     });
 }
 
-// Entries of one offset are a group, in the order in which they come.
+// Entries of one way are a group, in the order in which they come.
 template <class S>
 void PairList<S>::build_transposed_block(std::size_t b, const std::vector<Index>& first,
                                          const std::vector<Reverse>& entries, Scratch& scratch) {
     PairBlock<S>& block = blocks_[b];
     block.nearby.clear();
-    scratch.groups.clear();
-    scratch.entries.clear();
+    scratch.start_block();
     bool needs_visibility = false;
     for (std::size_t c = 0; c < kMotionBlock; ++c) {
         block.first_group[c] = static_cast<Index>(scratch.groups.size());
-        scratch.offsets.clear();
         const Index begin = first[b * kMotionBlock + c], end = first[b * kMotionBlock + c + 1];
+        std::vector<Index>& ways = scratch.ways_of_centre;
+        ways.clear();
         for (Index e = begin; e < end; ++e) {
             needs_visibility |= entries[e].needs_visibility;
-            if (std::find(scratch.offsets.begin(), scratch.offsets.end(), entries[e].offset) == scratch.offsets.end())
-                scratch.offsets.push_back(entries[e].offset);
+            const Index way = scratch.way_number({page_of(entries[e].cluster), entries[e].offset});
+            if (std::find(ways.begin(), ways.end(), way) == ways.end()) ways.push_back(way);
         }
-        for (const std::array<S, 3>& offset : scratch.offsets) {
+        for (const Index way : ways) {
             const auto from = static_cast<Index>(scratch.entries.size());
             for (Index e = begin; e < end; ++e) {
-                if (entries[e].offset == offset) scratch.entries.push_back(entries[e].cluster);
+                const PairWay<S> of_entry{page_of(entries[e].cluster), entries[e].offset};
+                if (of_entry == scratch.ways[way])
+                    scratch.entries.push_back(static_cast<PairEntry>(entries[e].cluster));
             }
-            const auto to = static_cast<Index>(scratch.entries.size());
-            scratch.groups.push_back({from, to, to, offset});
+            scratch.groups.push_back({from, static_cast<Index>(scratch.entries.size()), way});
         }
     }
     block.first_group[kMotionBlock] = static_cast<Index>(scratch.groups.size());
-    block.groups.assign(scratch.groups.begin(), scratch.groups.end());
-    block.entries.assign(scratch.entries.begin(), scratch.entries.end());
-    block.seen.clear();
-    if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
+    scratch.finish_block(block, needs_visibility);
 }
 
 template <class S>
@@ -252,6 +280,7 @@ void PairList<S>::prune(const ClusterPoints<S>& centres, const ClusterPoints<S>&
             PruneQuery<S> query;
             query.dimensions = centres.dimensions();
             query.records = neighbours.record(0);
+            query.ways = block.ways.data();
             query.entries = block.entries.data();
             query.seen = block.seen.empty() ? nullptr : block.seen.data();
             query.reach = reach;
@@ -302,21 +331,17 @@ void PairList<S>::refresh(const PairVisibility& visibility, std::size_t centres,
         for (std::size_t b = first; b < last; ++b) {
             PairBlock<S>& block = blocks_[b];
             if (block.seen.empty()) continue;
-            for (std::size_t c = 0; c < kMotionBlock; ++c) {
-                for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
-                    for (Index e = block.groups[g].begin; e < block.groups[g].listed_end; ++e) {
-                        std::uint16_t seen = 0;
-                        for (std::size_t k = 0; k < kClusterSize * kClusterSize; ++k) {
-                            const std::size_t i = (b * kMotionBlock + c) * kClusterSize + k / kClusterSize;
-                            const std::size_t j = block.entries[e] * kClusterSize + k % kClusterSize;
-                            if (i >= centres || j >= neighbours) continue;
-                            if (visibility.may_interact(static_cast<Index>(i), static_cast<Index>(j)))
-                                seen = static_cast<std::uint16_t>(seen | (1u << k));
-                        }
-                        block.seen[e] = seen;
-                    }
+            block.for_each_listed([&](std::size_t c, Index cluster, Index e) {
+                std::uint16_t seen = 0;
+                for (std::size_t k = 0; k < kClusterSize * kClusterSize; ++k) {
+                    const std::size_t i = (b * kMotionBlock + c) * kClusterSize + k / kClusterSize;
+                    const std::size_t j = cluster * kClusterSize + k % kClusterSize;
+                    if (i >= centres || j >= neighbours) continue;
+                    if (visibility.may_interact(static_cast<Index>(i), static_cast<Index>(j)))
+                        seen = static_cast<std::uint16_t>(seen | (1u << k));
                 }
-            }
+                block.seen[e] = seen;
+            });
         }
     });
 }
@@ -332,7 +357,7 @@ template <class S>
 std::size_t PairList<S>::entries() const {
     std::size_t count = 0;
     for (const PairBlock<S>& block : blocks_)
-        for (const PairGroup<S>& group : block.groups) count += group.end - group.begin;
+        for (const PairGroup& group : block.groups) count += group.end - group.begin;
     return count;
 }
 
@@ -340,8 +365,8 @@ template <class S>
 std::size_t PairList<S>::bytes() const {
     std::size_t bytes = blocks_.capacity() * sizeof(PairBlock<S>);
     for (const PairBlock<S>& block : blocks_)
-        bytes += block.groups.capacity() * sizeof(PairGroup<S>) +
-                 (block.entries.capacity() + block.nearby.capacity()) * sizeof(Index) +
+        bytes += block.groups.capacity() * sizeof(PairGroup) + block.ways.capacity() * sizeof(PairWay<S>) +
+                 block.entries.capacity() * sizeof(PairEntry) + block.nearby.capacity() * sizeof(Index) +
                  block.seen.capacity() * sizeof(std::uint16_t);
     return bytes;
 }

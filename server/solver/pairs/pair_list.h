@@ -23,10 +23,24 @@ namespace headrace::solver {
 template <class S>
 struct PairBlock {
     std::array<Index, kMotionBlock + 1> first_group{};
-    std::vector<PairGroup<S>> groups;
-    std::vector<Index> entries;       // clusters of neighbours
+    std::vector<PairGroup> groups;  // and one more, where the entries end
+    std::vector<PairWay<S>> ways;
+    std::vector<PairEntry> entries;
     std::vector<std::uint16_t> seen;  // of each entry: bit 4 i + j: may they interact? Empty: all may.
     std::vector<Index> nearby;        // blocks of neighbours that could come within reach
+
+    const PairWay<S>& way(const PairGroup& group) const { return ways[group.way]; }
+    // Where the group's entries end, those included that were pruned away.
+    Index listed_end(Index group) const { return groups[group + 1].begin; }
+    // visit(centre cluster within the block, cluster of neighbours, entry) for all that are listed.
+    template <class Visit>
+    void for_each_listed(Visit&& visit) const {
+        for (std::size_t c = 0; c < kMotionBlock; ++c) {
+            for (Index g = first_group[c]; g < first_group[c + 1]; ++g) {
+                for (Index e = groups[g].begin; e < listed_end(g); ++e) visit(c, way(groups[g]).page + entries[e], e);
+            }
+        }
+    }
 };
 
 // Which of the pairs that are near enough may interact.
@@ -81,10 +95,18 @@ class PairList {
         NearbyClusters<S> clusters;
         std::array<Extent, kMotionBlock> extents;  // of the block's clusters
         std::vector<Index> stamp;                  // of each block of neighbours: the last block that looked at it
-        std::vector<std::array<S, 3>> offsets;
-        std::vector<PairGroup<S>> groups;
-        std::vector<Index> entries, nearby, far;
+        std::vector<PairGroup> groups;
+        std::vector<PairWay<S>> ways;
+        std::vector<PairEntry> entries, far;
+        std::vector<Index> nearby, ways_of_centre;
+        Index next_way{};
         std::vector<std::uint16_t> far_seen;
+
+        // The number of this way of the block.
+        Index way_number(const PairWay<S>& way);
+        void start_block();
+        // Writes the block's lists.
+        void finish_block(PairBlock<S>& block, bool needs_visibility);
     };
     struct Reverse {  // an entry seen from the other side
         Index cluster{};

@@ -93,8 +93,9 @@ void PairNeighboursOf<S>::for_each_wall_pair(const std::function<void(Index wall
         for (std::size_t b = first; b < last; ++b) {
             for (std::size_t c = 0; c < kMotionBlock; ++c) {
                 for (Index g = blocks[b].first_group[c]; g < blocks[b].first_group[c + 1]; ++g) {
-                    for (Index e = blocks[b].groups[g].begin; e < blocks[b].groups[g].end; ++e)
-                        visit_clusters(b * kMotionBlock + c, blocks[b].entries[e]);
+                    const PairGroup& group = blocks[b].groups[g];
+                    for (Index e = group.begin; e < group.end; ++e)
+                        visit_clusters(b * kMotionBlock + c, blocks[b].way(group).page + blocks[b].entries[e]);
                 }
             }
         }

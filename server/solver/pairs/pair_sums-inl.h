@@ -46,13 +46,15 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<P
                           const NeighbourSource<S>& source, typename Pass::template Sums<PairLanes<S>>& sums) {
     using T = PairLanes<S>;
     constexpr std::size_t kRecord = 4 * (D + 1), kFields = 4 * Fields;
-    const S* records = source.points->record(0);
-    const Index* const entries = block.entries.data();
+    const PairEntry* const entries = block.entries.data();
     for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
-        const PairGroup<S>& group = block.groups[g];
+        const PairGroup group = block.groups[g];
         if (group.begin == group.end) continue;
+        const PairWay<S>& way = block.way(group);
+        const S* const records = source.points->record(way.page);
+        const S* const fields_of_page = source.fields + way.page * kFields;
         std::array<T, D> x;
-        for (int k = 0; k < D; ++k) x[k] = x_i[k] + T(static_cast<double>(group.offset[k]));
+        for (int k = 0; k < D; ++k) x[k] = x_i[k] + T(static_cast<double>(way.offset[k]));
         const auto meet = [&](Index e) {
             const S* record = records + entries[e] * kRecord;
             Pair<D, T> pair;
@@ -80,7 +82,7 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<P
             if constexpr (kIsAhead) {
                 if (e + 1 < group.end) next = meet(e + 1);
             }
-            const S* fields = source.fields + entries[e] * kFields;
+            const S* fields = fields_of_page + entries[e] * kFields;
             FieldsOf<T, Fields> neighbour;
             for (std::size_t f = 0; f < Fields; ++f) neighbour.field[f] = load_four<S>(fields + 4 * f);
             pass.template pair<IsWall>(self, pair, neighbour, sums);

@@ -59,7 +59,7 @@ void filter(const ReachQuery<S>& query, Index* found, Index* end_of_way) {
     std::size_t written = 0, c = 0;
     for (std::size_t w = 0; w < query.way_count; ++w) {
         const CandidateWay<S>& way = query.ways[w];
-        const CentreLanes<S, D> x = centre.displaced(way.offset);
+        const CentreLanes<S, D> x = centre.displaced(way.way.offset);
         for (; c < query.count && query.kept[c] < way.end; ++c) {
             const Index cluster = query.clusters[query.kept[c]];
             found[written] = cluster;
@@ -74,14 +74,18 @@ void prune(const PruneQuery<S>& query) {
     const CentreLanes<S, D> centre(query.centre, query.centre_points);
     const PairLanes<S> reach2(query.reach * query.reach);
     for (std::size_t g = 0; g < query.group_count; ++g) {
-        PairGroup<S>& group = query.groups[g];
-        const CentreLanes<S, D> x = centre.displaced(group.offset);
+        PairGroup& group = query.groups[g];
+        const PairWay<S>& way = query.ways[group.way];
+        const CentreLanes<S, D> x = centre.displaced(way.offset);
+        constexpr std::size_t kRecord = 4 * (D + 1);
+        const S* const page = query.records + way.page * kRecord;
+        const Index listed_end = query.groups[g + 1].begin;
         Index near = group.begin, far = 0;
-        for (Index e = group.begin; e < group.listed_end; ++e) {
-            const Index cluster = query.entries[e];
-            const bool is_near = x.is_within(reach2, query.records + cluster * std::size_t{4 * (D + 1)});
-            query.far[far] = cluster;
-            query.entries[near] = cluster;
+        for (Index e = group.begin; e < listed_end; ++e) {
+            const PairEntry entry = query.entries[e];
+            const bool is_near = x.is_within(reach2, page + entry * kRecord);
+            query.far[far] = entry;
+            query.entries[near] = entry;
             if constexpr (HasSeen) {
                 const std::uint16_t seen = query.seen[e];
                 query.far_seen[far] = seen;

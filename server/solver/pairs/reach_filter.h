@@ -11,11 +11,11 @@
 
 namespace headrace::solver {
 
-// Candidates [.., end) that one displacement leads to: of the centre, to the neighbours' reference point and period.
+// Candidates [.., end) on one way.
 template <class S>
 struct CandidateWay {
     std::size_t end{};
-    std::array<S, 3> offset{};  // [m]
+    PairWay<S> way;
 };
 
 template <class S>
@@ -49,12 +49,13 @@ struct PruneQuery {
     const S* centre{};            // record of the centre's cluster
     std::size_t centre_points{};  // points in it: the others are ignored
     const S* records{};           // of the neighbours' clusters
-    PairGroup<S>* groups{};
+    PairGroup* groups{};          // and the next one, which tells where the last one's entries end
     std::size_t group_count{};
-    Index* entries{};
+    const PairWay<S>* ways{};
+    PairEntry* entries{};
     std::uint16_t* seen{};  // of each entry; null: none
     double reach{};         // [m]
-    Index* far{};           // scratch for as many entries as the longest group has
+    PairEntry* far{};       // scratch for as many entries as the longest group has
     std::uint16_t* far_seen{};
 };
 

@@ -31,15 +31,17 @@ std::map<std::pair<std::size_t, std::size_t>, int> listed_pairs(const PairList<S
     for (std::size_t c = 0; c < centres.clusters(); ++c) {
         const PairBlock<S>& block = list.blocks()[c / kMotionBlock];
         for (Index g = block.first_group[c % kMotionBlock]; g < block.first_group[c % kMotionBlock + 1]; ++g) {
+            const PairWay<S>& way = block.way(block.groups[g]);
             for (Index e = block.groups[g].begin; e < block.groups[g].end; ++e) {
+                const std::size_t cluster = way.page + block.entries[e];
                 for (std::size_t k = 0; k < 16; ++k) {
-                    const std::size_t i = 4 * c + k / 4, j = std::size_t{4} * block.entries[e] + k % 4;
+                    const std::size_t i = 4 * c + k / 4, j = 4 * cluster + k % 4;
                     if (i >= centres.size() || j >= neighbours.size()) continue;
                     // As the loop sees it: relative places and the group's offset.
                     double r2 = 0.0;
                     for (int axis = 0; axis < centres.dimensions(); ++axis) {
-                        const double d = centres.record(c)[4 * axis + k / 4] + block.groups[g].offset[axis] -
-                                         neighbours.record(block.entries[e])[4 * axis + k % 4];
+                        const double d = centres.record(c)[4 * axis + k / 4] + way.offset[axis] -
+                                         neighbours.record(cluster)[4 * axis + k % 4];
                         r2 += d * d;
                     }
                     if (r2 < within * within) ++pairs[{i, j}];
@@ -113,6 +115,50 @@ TEST_CASE("PairList.PruningKeepsEveryPairWithinTheSupportAndTheInnerSkin") {
     all.find(in);
     check_complete(pruned, points, kSupport + kInnerSkin);
     CHECK(pruned.neighbours_per_particle() < all.neighbours_per_particle());
+}
+
+TEST_CASE("PairList.HasThePairsAcrossPagesOfClusters") {
+    // More clusters than an entry has numbers for; among them pairs from one page to the other.
+    constexpr int kEdge = 520;
+    constexpr double kWithin = 2.9;
+    Points points;
+    points.dimensions = 2;
+    for (int y = 0; y < kEdge; ++y)
+        for (int x = 0; x < kEdge; ++x) points.add({1.0 * x, 1.0 * y, 0.0});
+    points.sort();
+    PairNeighboursOf<float> neighbours;
+    neighbours.find(input_of(points));
+    REQUIRE(neighbours.fluid().clusters() > kPageClusters);
+    std::size_t pairs = 0, wrong = 0, across = 0;
+    for (std::size_t c = 0; c < neighbours.fluid().clusters(); ++c) {
+        const PairBlock<float>& block = neighbours.among_fluid().blocks()[c / kMotionBlock];
+        for (Index g = block.first_group[c % kMotionBlock]; g < block.first_group[c % kMotionBlock + 1]; ++g) {
+            const PairWay<float>& way = block.way(block.groups[g]);
+            for (Index e = block.groups[g].begin; e < block.groups[g].end; ++e) {
+                const std::size_t cluster = way.page + block.entries[e];
+                for (std::size_t k = 0; k < 16; ++k) {
+                    const std::size_t i = 4 * c + k / 4, j = 4 * cluster + k % 4;
+                    double r2 = 0.0;
+                    for (int axis = 0; axis < 2; ++axis) {
+                        const double d = neighbours.fluid().record(c)[4 * axis + k / 4] + way.offset[axis] -
+                                         neighbours.fluid().record(cluster)[4 * axis + k % 4];
+                        r2 += d * d;
+                    }
+                    if (r2 > kWithin * kWithin) continue;
+                    ++pairs;
+                    wrong += std::abs(std::sqrt(r2) - points.distance(i, j)) > 1e-4;
+                    across += page_of(static_cast<Index>(i / 4)) != page_of(static_cast<Index>(j / 4));
+                }
+            }
+        }
+    }
+    std::size_t expected = 0;
+    for (int y = -2; y <= 2; ++y) {
+        for (int x = -2; x <= 2; ++x) expected += std::size_t(kEdge - std::abs(x)) * std::size_t(kEdge - std::abs(y));
+    }
+    CHECK(pairs == expected);  // all with |x|, |y| <= 2: 8 < 2.9^2 < 9
+    CHECK(wrong == 0);
+    CHECK(across > 0);
 }
 
 TEST_CASE("PairList.HasThePairsOfClustersAsWideAsTheScene") {
