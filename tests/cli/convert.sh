@@ -28,6 +28,12 @@ for jobs in 1 3; do convert --format $formats,png --size 320x240 --jobs $jobs --
 diff -r jobs1 jobs3 || fail "1 and 3 jobs write different files"
 find . -name '*.part' | grep -q . && fail "temporary files are left"
 
+# Colours may be asked for by the names that people use.
+for name in velocity speed; do
+    convert --format png --sheet-only --size 320x240 --color-by $name --out by_$name >notes 2>&1 || fail "$(cat notes)"
+done
+diff -r by_velocity by_speed || fail "the colours of speed are not those of the velocity"
+
 # Some particles, some fields, some frames.
 expect_result 0 '3 files part/flat_\*\.csv.*' convert --format csv --out part --fields id,density --region 0,0,0.1,0.05 \
     --from 0.015 --to 0.065 --every 2
@@ -47,11 +53,33 @@ expect 2 'error usage \(--to\): the range ends before it begins; .*' convert --f
 expect 2 'error usage \(--format\): did you mean "npz"\?' convert --format npx --out none
 expect 2 'error usage \(--format\): png files need the field acceleration; .*' \
     convert --format png --color-by acceleration --out none
+expect 2 'error usage \(--color-by\): there is no field "vorticity"; known: .*' convert --format png --color-by vorticity --out none
 [ ! -e none ] || fail "a refused conversion left $(ls none)"
 mkdir taken
 mkdir taken/flat_long.csv
 expect 6 '(.*)error file_error (.*): cannot write .*flat_long\.csv.*' convert --format csv-long --out taken
 [ -z "$(find taken -type f)" ] || fail "a failed conversion left $(find taken -type f)"
+
+# A failure in the middle leaves whole frames only, and what it says is there is there; what was in the folder stays. It fails
+# at the sixth frame, whichever job has it.
+for jobs in 1 3; do
+    half=half$jobs
+    mkdir -p "$half/flat_000005.csv"
+    touch "$half/flat_000010.ply"
+    expect 6 '(.*)error file_error (.*): cannot write .*flat_000005\.csv: .*; written and whole: the first 5 frames of 11' \
+        convert --format npz,csv,csv-long,vtp --jobs $jobs --out "$half"
+    for ending in npz csv vtp; do
+        [ "$(cd "$half" && find . -type f -name "flat_[0-9]*.$ending" | sort | tr -d '\n')" = \
+            "$(printf "./flat_00000%d.$ending" 0 1 2 3 4)" ] || fail "jobs $jobs, $ending: $(ls "$half")"
+    done
+    [ -d "$half/flat_000005.csv" ] && [ -f "$half/flat_000010.ply" ] || fail "others' files are gone: $(ls "$half")"
+    # The list for ParaView names these five, each with its objects, and there is nothing else but the other's file.
+    [ "$(grep -c 'part="0"' "$half/flat.pvd")" = 5 ] || fail "the list is not of 5 frames: $(cat "$half/flat.pvd")"
+    [ "$(find "$half" -type f | wc -l)" = 18 ] || fail "more than that: $(ls "$half")"
+done
+mkdir -p first/flat_000000.npz
+expect 6 '(.*)error file_error (.*): cannot write .*flat_000000\.npz: .*; nothing was written' convert --format npz --out first
+[ -z "$(find first -type f)" ] || fail "a conversion that failed at once left $(find first -type f)"
 
 if [ -n "$results" ]; then
     rm -rf "$results/convert"
