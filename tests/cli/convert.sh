@@ -77,6 +77,13 @@ for jobs in 1 3; do
     [ "$(grep -c 'part="0"' "$half/flat.pvd")" = 5 ] || fail "the list is not of 5 frames: $(cat "$half/flat.pvd")"
     [ "$(find "$half" -type f | wc -l)" = 18 ] || fail "more than that: $(ls "$half")"
 done
+# A file that grows meets the limit of sizes (as it would a full disk): of the frame at which it does nothing is listed.
+expect 6 '(.*)error file_error (.*): cannot write .*full/flat_long\.csv: File too large; written and whole: the first [0-9]+ frames? of 11' \
+    bash -c 'ulimit -f 30; exec "$1" convert flat.mcap --format vtp,csv-long --jobs 2 --out full' - "$headrace"
+frames=$(sed -nE 's/.*the first ([0-9]+) frames? of 11.*/\1/p' <<<"$output")
+[ "$frames" -ge 1 ] && [ "$frames" -lt 11 ] || fail "$frames frames in 30 kB"
+[ "$(find full -type f -name 'flat_[0-9]*.vtp' | wc -l)" = "$frames" ] || fail "not $frames frames: $(ls full)"
+[ "$(grep -c 'part="0"' full/flat.pvd)" = "$frames" ] || fail "the list is not of $frames frames: $(cat full/flat.pvd)"
 mkdir -p first/flat_000000.npz
 expect 6 '(.*)error file_error (.*): cannot write .*flat_000000\.npz: .*; nothing was written' convert --format npz --out first
 [ -z "$(find first -type f)" ] || fail "a conversion that failed at once left $(find first -type f)"
