@@ -4,6 +4,7 @@
 #include "client/cli.h"
 
 int main(int argc, char** argv) {
-    std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is a failed write, which is told and leaves nothing half written
+    // A limit of file sizes is a failed write then, which is told and leaves nothing half written.
+    std::signal(SIGXFSZ, SIG_IGN);
     return headrace::client::run_command_line(argc, argv);
 }
