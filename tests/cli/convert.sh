@@ -75,7 +75,9 @@ for jobs in 1 3; do
     [ -d "$half/flat_000005.csv" ] && [ -f "$half/flat_000010.ply" ] || fail "others' files are gone: $(ls "$half")"
     # The list for ParaView names these five, each with its objects, and there is nothing else but the other's file.
     [ "$(grep -c 'part="0"' "$half/flat.pvd")" = 5 ] || fail "the list is not of 5 frames: $(cat "$half/flat.pvd")"
-    [ "$(find "$half" -type f | wc -l)" = 18 ] || fail "more than that: $(ls "$half")"
+    [ "$(find "$half" -type f ! -name 'flat_objects_*.vtp' | wc -l)" = 17 ] || fail "more than that: $(ls "$half")"
+    [ "$(find "$half" -name 'flat_objects_*.vtp' | wc -l)" = "$(grep -o 'flat_objects_[0-9]*' "$half/flat.pvd" | sort -u | wc -l)" ] ||
+        fail "objects of no frame: $(ls "$half")"
 done
 # A file that grows meets the limit of sizes (as it would a full disk): of the frame at which it does nothing is listed.
 expect 6 '(.*)error file_error (.*): cannot write .*full/flat_long\.csv: File too large; written and whole: the first [0-9]+ frames? of 11' \
