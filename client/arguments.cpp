@@ -128,6 +128,16 @@ proto::Result<proto::RunUntil> parse_until(std::string_view word) {
     return until;
 }
 
+namespace {
+
+proto::Error no_field(const std::string& name, const std::string& path) {
+    std::vector<std::string> known;
+    for (const proto::FieldInfo& info : proto::kFields) known.emplace_back(info.name);
+    return usage_error("there is no field \"" + name + "\"", path, proto::suggest(name, known));
+}
+
+}  // namespace
+
 proto::Result<proto::FieldSet> parse_fields(std::string_view word) {
     proto::FieldSet fields;
     for (const std::string& name : split(word, ',')) {
@@ -135,11 +145,19 @@ proto::Result<proto::FieldSet> parse_fields(std::string_view word) {
             fields.insert(*field);
             continue;
         }
-        std::vector<std::string> known;
-        for (const proto::FieldInfo& info : proto::kFields) known.emplace_back(info.name);
-        return usage_error("there is no field \"" + name + "\"", name, proto::suggest(name, known));
+        return no_field(name, name);
     }
     return fields;
+}
+
+proto::Result<proto::Field> parse_color_field(std::string_view word) {
+    constexpr std::pair<std::string_view, proto::Field> kOtherNames[] = {
+        {"speed", proto::Field::velocity}, {"|velocity|", proto::Field::velocity}, {"v", proto::Field::velocity},
+        {"p", proto::Field::pressure},     {"rho", proto::Field::density},         {"a", proto::Field::acceleration}};
+    for (const auto& [name, field] : kOtherNames)
+        if (name == word) return field;
+    if (const auto field = proto::find_field(word)) return *field;
+    return no_field(std::string(word), "--color-by");
 }
 
 proto::Result<proto::Precision> parse_precision(std::string_view word) {

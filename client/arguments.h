@@ -35,6 +35,8 @@ proto::Result<proto::RunUntil> parse_until(std::string_view word);
 
 // "velocity,density"
 proto::Result<proto::FieldSet> parse_fields(std::string_view word);
+// What colours show: a field's name, or what people call it: "speed", "rho". Of a vector its length is shown.
+proto::Result<proto::Field> parse_color_field(std::string_view word);
 proto::Result<proto::Precision> parse_precision(std::string_view word);
 // "a:b", either may be missing.
 proto::Result<std::pair<std::optional<double>, std::optional<double>>> parse_range(std::string_view word);

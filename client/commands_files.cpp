@@ -87,13 +87,8 @@ proto::Result<ConvertOptions> convert_options(const ConvertWords& words) {
                                    "x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1, ascending");
         options.region = *region;
     }
-    const auto field = proto::find_field(words.color_by);
-    if (!field) {
-        std::vector<std::string> known;
-        for (const proto::FieldInfo& info : proto::kFields) known.emplace_back(info.name);
-        return usage_error("there is no field \"" + words.color_by + "\"", "--color-by",
-                           proto::suggest(words.color_by, known));
-    }
+    const auto field = parse_color_field(words.color_by);
+    if (!field) return field.error();
     options.picture.color_field = *field;
     if (!words.range.empty()) {
         auto range = parse_range(words.range);
@@ -197,7 +192,9 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
     converter->add_option("--region", words->region, "only particles inside x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1 [m]");
     converter->add_option("--jobs", words->jobs, "frames in work at a time; default: the cores")
         ->check(CLI::Range(1, 1'024));
-    converter->add_option("--color-by,--field", words->color_by, "pictures: what the colours show")
+    converter
+        ->add_option("--color-by,--field", words->color_by,
+                     "pictures: what the colours show: a field, speed for that of velocity")
         ->capture_default_str();
     converter->add_option("--palette", words->palette, "pictures: viridis, cividis, magma, coolwarm")
         ->capture_default_str();

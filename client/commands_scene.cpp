@@ -119,7 +119,7 @@ void print_status(const proto::SimStatusReply& status) {
     }
     if (status.diagnostics)
         print_line("max speed " + number(status.diagnostics->max_speed) + " m/s, kinetic energy " +
-                   number(status.diagnostics->kinetic_energy) + " J (2D: J/m), density mean " +
+                   energy_text(status.diagnostics->kinetic_energy, status.dimensions) + ", density mean " +
                    number(status.diagnostics->mean_density) + ", max " + number(status.diagnostics->max_density) +
                    " kg/m^3");
     if (status.job)

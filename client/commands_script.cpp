@@ -1,4 +1,6 @@
 // script: commands from a file, one after the other
+#include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <iterator>
 
@@ -56,7 +58,20 @@ std::string step_name(const ScriptStep& step) {
     return std::to_string(step.line) + " " + (command != nullptr ? command->method : "wait");
 }
 
-// Results are what a script is for: one line each, the place and the reply.
+// Numbers with the ten digits that a run's clock means: a sum of steps such as 7.039999999999894 is 7.04.
+proto::Json with_digits(const proto::Json& value) {
+    if (value.is_number_float()) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.10g", value.get<double>());
+        return std::strtod(text, nullptr);
+    }
+    proto::Json rounded = value;
+    if (value.is_structured())
+        for (auto& member : rounded) member = with_digits(member);
+    return rounded;
+}
+
+// Results are what a script is for: one line each, the place and the reply. --json has all digits.
 void print_result(const Globals& globals, const ScriptStep& step, const proto::Json& result) {
     const auto* command = std::get_if<ScriptCommand>(&step.what);
     if (globals.json)
@@ -64,7 +79,7 @@ void print_result(const Globals& globals, const ScriptStep& step, const proto::J
             {"line", step.line}, {"method", command != nullptr ? command->method : "wait"}, {"result", result}}
                        .dump());
     else
-        print_line(step_name(step) + ": " + result.dump());
+        print_line(step_name(step) + ": " + with_digits(result).dump());
 }
 
 proto::Result<proto::Json> take_step(Connection& connection, ScriptWaits& waits, const ScriptStep& step) {

@@ -20,6 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr const char* kWithoutTerminal = "headrace watch --once prints one snapshot";
 constexpr auto kRefresh = 250ms;
+constexpr const char* kEnergyProbe = "watched_energies";
 constexpr int kSnapshotColumns = 80, kSnapshotRows = 1'000;
 
 // A look at the server, and what the keys do there.
@@ -46,6 +47,8 @@ class Watch {
                 return act("sim.step", proto::Json::object(), "stepped");
             case 'd':
                 return offer_objects();
+            case 'e':
+                return toggle_energies();
             default:
                 return;
         }
@@ -79,6 +82,20 @@ class Watch {
         auto result = connection_.request(method, params, Patience::while_alive);
         if (!result) return dashboard_.say(error_line(result.error()));
         dashboard_.say(done + " at step " + with_thousands((*result).value("step", std::int64_t{})));
+    }
+
+    // The probe that tells the energy error. It makes steps longer, so it is there only when asked for.
+    void toggle_energies() {
+        auto probes = call<proto::ProbesListReply>(connection_, "probes.list", proto::ProbesList{});
+        if (!probes) return dashboard_.say(error_line(probes.error()));
+        for (const proto::ProbeState& probe : probes->probes) {
+            if (!std::holds_alternative<proto::EnergyProbe>(probe.probe.kind)) continue;
+            if (probe.probe.name != kEnergyProbe)
+                return dashboard_.say("the probe " + probe.probe.name + " tells the energy error already");
+            return act("probes.remove", {{"name", kEnergyProbe}}, "no longer following energies");
+        }
+        const proto::Json probe{{"name", kEnergyProbe}, {"kind", {{"energies", proto::Json::object()}}}};
+        act("probes.add", {{"probe", probe}}, "following energies (e ends that)");
     }
 
     void offer_objects() {
@@ -149,7 +166,7 @@ proto::Status watch(const Globals& globals, bool is_once) {
 void add_watch_command(CLI::App& app, CommandLine& line) {
     auto is_once = std::make_shared<bool>(false);
     add_command(app, line, "watch",
-                "show a run on the terminal while it goes on; keys pause, resume, step, remove, quit",
+                "show a run on the terminal while it goes on; keys pause, resume, step, remove, follow energies, quit",
                 [is_once](const Globals& globals) { return watch(globals, *is_once); })
         ->add_flag("--once", *is_once, "print one snapshot, for which no terminal is needed");
 }

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "client/arguments.h"
+#include "client/frame_files.h"
 #include "client/frame_selection.h"
 #include "client/interrupt.h"
 #include "client/object_timeline.h"
@@ -69,6 +70,7 @@ proto::FieldSet needed_fields(const FormatInfo& format, proto::Field color_field
 struct Output {
     std::unique_ptr<Writer> writer;
     proto::FieldSet fields;
+    std::string extension;  // of the file that each frame gets; empty: there is none
 };
 
 // Whether the recording holds what is asked for.
@@ -103,7 +105,8 @@ proto::Result<std::vector<Output>> make_outputs(const ConvertOptions& options, c
         for (const proto::FieldInfo& info : proto::kFields) fields.insert(info.field);
         const FormatInfo& format = *find_format(name);
         if (options.fields && !format.is_picture) fields = *options.fields | format.needs;
-        outputs.push_back({*std::move(writer), fields});
+        const bool is_one_file = name == "csv-long" || name == "mp4" || (name == "png" && !options.picture.every_frame);
+        outputs.push_back({*std::move(writer), fields, is_one_file ? "" : name});
     }
     return outputs;
 }
@@ -151,7 +154,7 @@ using Work = OrderedWork<proto::Result<Prepared>>;
 
 proto::Result<Prepared> prepare(proto::RecordingReader& reader, std::size_t index, std::size_t number,
                                 const ConvertOptions& options, const ObjectTimeline& timeline,
-                                const std::vector<Output>& outputs) {
+                                const std::vector<Output>& outputs, FrameFiles& files) {
     auto frame = reader.read_frame(index);
     if (!frame) return frame.error();
     std::vector<std::byte> bytes;
@@ -162,9 +165,56 @@ proto::Result<Prepared> prepare(proto::RecordingReader& reader, std::size_t inde
         const proto::FrameView part = select_fields(*frame, output.fields);
         auto rest = output.writer->prepare({part, number, objects});
         if (!rest) return rest.error();
-        prepared.rest.push_back(*std::move(rest));
+        files.add(number);
+        // What grows may fail; the lists of frames come last, so that none is listed of which that has failed.
+        prepared.rest.insert(output.extension.empty() ? prepared.rest.begin() : prepared.rest.end(), *std::move(rest));
     }
     return prepared;
+}
+
+// Does all frames, or those up to Ctrl-C. Counts those that are done with in `conversion`, in case of an error too.
+proto::Status write_frames(const std::vector<std::unique_ptr<proto::RecordingReader>>& readers,
+                           const std::vector<std::size_t>& frames, const ConvertOptions& options,
+                           const ObjectTimeline& timeline, const std::vector<Output>& outputs, FrameFiles& files,
+                           Conversion& conversion) {
+    std::vector<Work::Make> workers;
+    for (const auto& own : readers)
+        workers.push_back([&, source = own.get()](std::size_t number) {
+            return prepare(*source, frames[number], number, options, timeline, outputs, files);
+        });
+    Progress progress = make_progress("converting");
+    Work work(frames.size(), std::move(workers));
+    std::size_t count = frames.size();
+    while (conversion.frames < count) {
+        auto prepared = work.next();
+        if (!prepared) return prepared.error();
+        for (const Writer::InOrder& rest : prepared->rest)
+            if (auto done = rest(); !done) return done.error();
+        ++conversion.frames;
+        progress.update(static_cast<double>(conversion.frames) / static_cast<double>(frames.size()),
+                        "t " + number(prepared->time) + " s");
+        if (is_interrupted()) count = work.stop();
+    }
+    progress.finish();
+    return proto::Done{};
+}
+
+// What a person finds in the folder after a failure: whole frames, nothing of the others.
+proto::Error failed_after(proto::Error error, const FrameFiles& files, const Conversion& conversion,
+                          std::size_t frames) {
+    files.remove_from(conversion.frames);
+    const bool has_probes = !conversion.probe_files.empty();
+    std::string written = has_probes ? "written: the probes' files" : "nothing was written";
+    if (files.has_any() && conversion.frames > 0) {
+        written = "written and whole: ";
+        written += conversion.frames == frames
+                       ? "the files of each frame"
+                       : "the first " + plural(static_cast<std::int64_t>(conversion.frames), "frame") + " of " +
+                             with_thousands(static_cast<std::int64_t>(frames));
+        if (has_probes) written += ", and the probes' files";
+    }
+    error.hint += (error.hint.empty() ? "" : "; ") + written;
+    return error;
 }
 
 }  // namespace
@@ -235,28 +285,14 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
         if (!another) return another.error();
         readers.push_back(*std::move(another));
     }
-    std::vector<Work::Make> workers;
-    for (const auto& own : readers)
-        workers.push_back([&, source = own.get()](std::size_t number) {
-            return prepare(*source, frames[number], number, options, *timeline, *outputs);
-        });
-
-    Progress progress = make_progress("converting");
-    Work work(frames.size(), std::move(workers));
-    std::size_t count = frames.size();
-    while (conversion.frames < count) {
-        auto prepared = work.next();
-        if (!prepared) return prepared.error();
-        for (const Writer::InOrder& rest : prepared->rest)
-            if (auto done = rest(); !done) return done.error();
-        ++conversion.frames;
-        progress.update(static_cast<double>(conversion.frames) / static_cast<double>(frames.size()),
-                        "t " + number(prepared->time) + " s");
-        if (is_interrupted()) count = work.stop();
-    }
-    progress.finish();
+    std::vector<std::string> extensions;
+    for (const Output& output : *outputs) extensions.push_back(output.extension);
+    FrameFiles files(options.folder, options.recording.stem().string(), std::move(extensions), frames.size());
+    if (auto written = write_frames(readers, frames, options, *timeline, *outputs, files, conversion); !written)
+        return failed_after(written.error(), files, conversion, frames.size());
     for (const Output& output : *outputs) {
-        if (auto finished = output.writer->finish(); !finished) return finished.error();
+        if (auto finished = output.writer->finish(); !finished)
+            return failed_after(finished.error(), files, conversion, frames.size());
         conversion.summaries.push_back(output.writer->summary());
     }
     return conversion;

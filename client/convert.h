@@ -37,8 +37,9 @@ proto::Status check_formats(const std::vector<std::string>& formats);
 proto::Status check_fields(const std::vector<std::string>& formats, proto::FieldSet fields, proto::Field color_field);
 
 // Reads and writes frame by frame: memory does not grow with the recording, only with `jobs`, and the files do not
-// depend on them. Errors: usage for a choice that leaves nothing, file_error, those of reader and writers. On Ctrl-C
-// the frames so far are converted and the files complete.
+// depend on them. Errors: usage for a choice that leaves nothing, file_error, those of reader and writers: then
+// the files of the frames before it are there and whole, and the hint says how many; none of others. On Ctrl-C the
+// frames so far are converted and the files complete.
 proto::Result<Conversion> convert(const ConvertOptions& options);
 
 }  // namespace headrace::client

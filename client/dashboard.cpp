@@ -60,6 +60,12 @@ void Dashboard::add(const proto::Event& event) {
     if (warnings_.size() > kWarnings) warnings_.pop_front();
 }
 
+// Whether the model can tell where its energy goes, and nobody asks it to: a stage of its plan that is skipped.
+bool Dashboard::may_follow_energies() const {
+    return std::any_of(status_->plan.begin(), status_->plan.end(),
+                       [](const proto::PlanStage& stage) { return stage.stage == "energies" && !stage.active; });
+}
+
 std::string Dashboard::colored(const std::string& text, const char* code) const {
     return style_.colors ? "\x1b[" + std::string(code) + "m" + text + "\x1b[0m" : text;
 }
@@ -71,7 +77,7 @@ std::string Dashboard::row(const std::string& name, const std::string& value, co
     return text + sparkline(curve->values, room - text.size(), style_.glyphs);
 }
 
-std::vector<std::string> Dashboard::run_lines(int columns) const {
+std::vector<std::string> Dashboard::run_lines(int columns, bool with_keys) const {
     const proto::SimStatusReply& s = *status_;
     std::vector<std::string> lines{
         row("time", number(s.time) + " s", nullptr, columns),
@@ -83,11 +89,16 @@ std::vector<std::string> Dashboard::run_lines(int columns) const {
     if (!s.diagnostics) return lines;
     const proto::Diagnostics& sums = *s.diagnostics;
     lines.push_back(row("max speed", number(sums.max_speed) + " m/s", nullptr, columns));
-    lines.push_back(row("kinetic energy", number(sums.kinetic_energy) + " J (2D: J/m)", &kinetic_, columns));
+    lines.push_back(row("kinetic energy", energy_text(sums.kinetic_energy, s.dimensions), &kinetic_, columns));
     lines.push_back(
-        row("energy", number(sums.kinetic_energy + sums.potential_energy) + " J (2D: J/m)", &energy_, columns));
+        row("energy", energy_text(sums.kinetic_energy + sums.potential_energy, s.dimensions), &energy_, columns));
     if (extras_.energy_balance)
-        lines.push_back(row("energy error", number(*extras_.energy_balance) + " J (2D: J/m)", &balance_, columns));
+        lines.push_back(row("energy error", energy_text(*extras_.energy_balance, s.dimensions), &balance_, columns));
+    else if (may_follow_energies())
+        lines.push_back(row("energy error",
+                            with_keys ? "not followed, as that makes steps longer: e adds a probe that does"
+                                      : "not followed: a probe of the kind energies does (headrace help probes)",
+                            nullptr, columns));
     if (extras_.rest_density) {
         const double rest = *extras_.rest_density;
         lines.push_back(row("density error", "mean " + percent(sums.mean_density / rest - 1.0), &mean_error_, columns));
@@ -141,7 +152,7 @@ std::vector<std::string> Dashboard::lines(int rows, int columns, bool with_keys)
             question += "  " + std::to_string(k + 1) + " " + choices_[k];
         keys.push_back(colored(question + "  Esc none", kBold));
     } else if (with_keys) {
-        keys.push_back("p pause  r resume  s step  d remove an object  q quit");
+        keys.push_back("p pause  r resume  s step  d remove an object  e follow energies  q quit");
     }
     if (with_keys) keys.insert(keys.begin(), note_);
 
@@ -155,7 +166,7 @@ std::vector<std::string> Dashboard::lines(int rows, int columns, bool with_keys)
         }
     };
     const std::vector<std::string> warnings = warning_lines();
-    if (status_->scene) take(run_lines(columns));
+    if (status_->scene) take(run_lines(columns, with_keys));
     if (!warnings.empty()) take({""}), take(warnings);
     const std::vector<std::string> readers = reader_lines();
     if (!readers.empty()) take({""}), take(readers);

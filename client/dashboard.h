@@ -43,7 +43,8 @@ class Dashboard {
     };
     std::string colored(const std::string& text, const char* code) const;
     std::string row(const std::string& name, const std::string& value, const Curve* curve, int columns) const;
-    std::vector<std::string> run_lines(int columns) const;
+    std::vector<std::string> run_lines(int columns, bool with_keys) const;
+    bool may_follow_energies() const;
     std::vector<std::string> reader_lines() const;
     std::vector<std::string> warning_lines() const;
 

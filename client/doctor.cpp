@@ -13,6 +13,7 @@
 #include <CLI/Version.hpp>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +22,7 @@
 
 #include "client/arguments.h"
 #include "client/connection.h"
+#include "client/doctor_programs.h"
 #include "client/endpoints.h"
 #include "client/spawn.h"
 #include "client/text.h"
@@ -39,12 +41,6 @@ constexpr rlim_t kEnoughFiles = 1'024;             // sockets of many subscriber
 constexpr std::uintmax_t kEnoughSpace = 1u << 30;  // [bytes] 10^4 frames of 3,000 particles
 constexpr int kPorts = 4;                          // control, events, frames, data
 
-Finding good(std::string subject, std::string found) {
-    return {std::move(subject), Health::good, std::move(found), ""};
-}
-Finding warning(std::string subject, std::string found, std::string remedy) {
-    return {std::move(subject), Health::warning, std::move(found), std::move(remedy)};
-}
 Finding failure(std::string subject, std::string found, std::string remedy, ErrorCode code) {
     return {std::move(subject), Health::failure, std::move(found), std::move(remedy), code};
 }
@@ -128,7 +124,9 @@ Finding folder(const std::string& subject, const fs::path& path, const std::stri
     unlink(name.c_str());
     std::error_code error;
     const std::uintmax_t space = fs::space(path, error).available;
-    const std::string found = path.string() + ", " + number(static_cast<double>(space >> 20) / 1'024.0) + " GiB free";
+    const double gib = static_cast<double>(space >> 20) / 1'024.0;
+    const std::string free = gib < 10.0 ? number(std::round(10.0 * gib) / 10.0) : with_thousands(std::llround(gib));
+    const std::string found = path.string() + ", " + free + " GiB free";
     if (!error && space < kEnoughSpace)
         return warning(subject, found, "recordings will not fit for long: free some space");
     return good(subject, found);
@@ -220,6 +218,8 @@ std::vector<Finding> examine(const std::string& server) {
         file_size(),
         folder("this folder", here, "recordings and pictures go here unless told otherwise: choose a folder of yours"),
         folder("temporary folder", error ? fs::path("/tmp") : temporary, "set TMPDIR to a folder that can be written"),
+        film_maker(),
+        python_modules(),
         private_server(),
         running_server(server)};
 }

@@ -53,6 +53,10 @@ std::string plural(std::int64_t count, const std::string& noun) {
     return with_thousands(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+std::string energy_text(double energy, std::optional<int> dimensions) {
+    return number(energy) + (!dimensions ? " J (2D: J/m)" : *dimensions == 2 ? " J/m" : " J");
+}
+
 std::string recording_summary(std::uint64_t frames, std::uint64_t gaps) {
     return plural(static_cast<std::int64_t>(frames), "frame") + ", " + plural(static_cast<std::int64_t>(gaps), "gap");
 }
@@ -130,7 +134,9 @@ std::string error_line(const proto::Error& error) {
     if (!error.path.empty()) line += " (" + error.path + ")";
     const bool hint_says_it_all = error.hint.starts_with("did you mean") || error.message.empty();
     if (hint_says_it_all) return line + ": " + error.hint;
-    line += ": " + error.message;
+    // The path of a file stands in front of some messages: once is enough.
+    const bool names_path = !error.path.empty() && error.message.starts_with(error.path + ": ");
+    line += names_path ? error.message.substr(error.path.size()) : ": " + error.message;
     if (!error.hint.empty()) line += "; " + error.hint;
     return line;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "proto/messages.h"
@@ -13,6 +14,9 @@ std::string number(double value);                                 // six signifi
 std::string duration_text(double seconds);                        // "0:07", "12:03", "1:02:03"
 std::string at_moment(std::uint64_t step, double time);           // "step 1,234, t 12.34 s"
 std::string plural(std::int64_t count, const std::string& noun);  // "1 frame", "2,000 frames"
+
+// "1.5 J", in 2 dimensions "1.5 J/m": what the fluid has per metre of depth. Where a server does not tell them: both.
+std::string energy_text(double energy, std::optional<int> dimensions);
 
 std::string recording_summary(std::uint64_t frames, std::uint64_t gaps);  // "301 frames, 0 gaps"
 

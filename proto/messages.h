@@ -164,6 +164,7 @@ struct SimStatusReply {
     SimState state{SimState::empty};
     std::optional<std::string> scene;
     std::optional<std::string> model;
+    std::optional<int> dimensions;  // 2 or 3
     // How its pairs are summed: scheme, precision, instruction set. Another one may change the last bits of a run.
     std::optional<std::string> strategy;
     std::optional<std::int64_t> threads;  // that its steps take just now

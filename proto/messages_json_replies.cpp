@@ -118,6 +118,7 @@ void describe(Visitor& v, SimStatusReply& m) {
     v.required("state", m.state, {.meaning = "state of the server"});
     v.optional("scene", m.scene, {.meaning = "name of the scene"});
     v.optional("model", m.model, {.meaning = "name of the model"});
+    v.optional("dimensions", m.dimensions, {.meaning = "2 or 3: in 2D sums are per metre of depth", .unit = "1"});
     v.optional("strategy", m.strategy,
                {.meaning = "how its pairs are summed: scheme, precision, instruction set; another one may change the "
                            "last bits of a run"});

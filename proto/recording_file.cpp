@@ -16,7 +16,7 @@ namespace {
 
 Error system_error(const std::filesystem::path& path, const std::string& what, int number) {
     const char* hint = "";
-    if (number == EEXIST) hint = "choose another name, or ask for overwriting";
+    if (number == EEXIST) hint = R"(choose another name, or replace it: --overwrite, in a command "overwrite": true)";
     if (number == ENOENT) hint = "check the name; folders are not created";
     if (number == EACCES || number == EPERM || number == EROFS) hint = "check the permissions of file and folder";
     if (number == ENOSPC || number == EDQUOT) hint = "free space on the disk; what is written so far stays readable";

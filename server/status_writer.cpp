@@ -109,6 +109,7 @@ void StatusWriter::write(const SimulationView& view) {
         update_details(view, now);
         status.scene = scene_->name;
         status.model = view.run->model().name();
+        status.dimensions = scene_->dimensions;
         status.strategy = view.run->model().strategy();
         status.threads = view.threads;
         status.step = view.run->step_number();

@@ -59,15 +59,18 @@ packages=("${headrace_build_packages[@]}" catch2 python3 python3-zmq python3-num
     mypy=mypy parallel slurm-wlm munge)
 install_packages "${packages[@]}"
 
-# The MCAP reader of another project judges our recordings.
-mcap="$root/tests/support/mcap"
-if [ $full = yes ] && [ -z "${HEADRACE_NO_INSTALL:-}" ] && [ -f "$mcap/package-lock.json" ] &&
-    ! cmp -s "$mcap/package-lock.json" "$mcap/node_modules/.installed-lock.json"; then
-    say "installing the Node.js packages of tests/support/mcap"
-    (cd "$mcap" && npm ci --no-audit --no-fund --loglevel=error) ||
-        die "npm ci failed in $mcap" "Its message is above. Is there a network?"
-    cp "$mcap/package-lock.json" "$mcap/node_modules/.installed-lock.json"
-fi
+# Other projects judge our recordings (mcap) and what the server says of itself (openrpc).
+for judge in mcap openrpc; do
+    folder="$root/tests/support/$judge"
+    if [ $full = no ] || [ -n "${HEADRACE_NO_INSTALL:-}" ] ||
+        cmp -s "$folder/package-lock.json" "$folder/node_modules/.installed-lock.json"; then
+        continue
+    fi
+    say "installing the Node.js packages of tests/support/$judge"
+    (cd "$folder" && npm ci --no-audit --no-fund --loglevel=error) ||
+        die "npm ci failed in $folder" "Its message is above. Is there a network?"
+    cp "$folder/package-lock.json" "$folder/node_modules/.installed-lock.json"
+done
 
 say "building everything in $build"
 cd "$root"

@@ -38,6 +38,9 @@ headrace_script_test("protocol: the reference is up to date" script support/prot
 headrace_script_test("protocol: what describe says holds" script support/check_description.py $<TARGET_FILE:headraced> ${root}
                      NEEDS zmq,jsonschema)
 
+headrace_script_test("protocol: describe is OpenRPC by its makers' meta-schema" script support/check_openrpc.py
+                     $<TARGET_FILE:headraced> NEEDS zmq,jsonschema)
+
 # Recordings and frames, read by others. Frame 7 of the sample recording also comes as a file of its own.
 add_executable(write_sample_recording support/write_sample_recording.cpp)
 target_link_libraries(write_sample_recording PRIVATE headrace_recording)

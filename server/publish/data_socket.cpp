@@ -63,7 +63,9 @@ void DataSocket::handle(const Peer& peer, std::string_view text) {
 void DataSocket::carry_out(const Peer& peer, const proto::RpcRequest& request) {
     // An acknowledgement may come as a notification: nothing is sent back then.
     const auto reply = [&](const std::string& message) {
-        if (!request.is_notification) answer(peer, message);
+        if (request.is_notification) return;
+        told_();
+        answer(peer, message);
     };
     const auto handled = [&]<class Message>(auto&& action) {
         const proto::Result<Message> message = proto::from_json<Message>(request.params, "params");

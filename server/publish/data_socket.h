@@ -22,15 +22,17 @@ namespace headrace::publish {
 class DataSocket {
   public:
     // `settle` delivers what the simulation has handed over so far: a close or an acknowledgement comes after it.
+    // `told` is called before a reply: who reads the status after it sees the change.
     DataSocket(FrameHub& hub, zmq::socket_t& socket, LosslessStreams& streams, const server::StatusBoard& board,
-               std::uint64_t session, std::size_t soft_limit, std::function<void()> settle)
+               std::uint64_t session, std::size_t soft_limit, std::function<void()> settle, std::function<void()> told)
         : hub_(hub),
           socket_(socket),
           streams_(streams),
           board_(board),
           session_(session),
           soft_limit_(soft_limit),
-          settle_(std::move(settle)) {}
+          settle_(std::move(settle)),
+          told_(std::move(told)) {}
 
     void read_requests();                                     // handles what has arrived
     bool deliver(const CaptureFor& capture);                  // false: not a frame.get of ours
@@ -54,7 +56,7 @@ class DataSocket {
     const server::StatusBoard& board_;
     std::uint64_t session_;
     std::size_t soft_limit_;
-    std::function<void()> settle_;
+    std::function<void()> settle_, told_;
     std::map<DemandId, WaitingFrame> waiting_;
 };
 

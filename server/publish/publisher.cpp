@@ -76,8 +76,9 @@ struct Publisher::Impl {
           live(hub, frames_socket, options.session),
           lossless(hub, data, options.session, events, board),
           recorder({hub, events, board, probe_board}, options.session, options.data_folder),
-          data_socket(hub, data, lossless, board, options.session, static_cast<std::size_t>(options.soft_message_limit),
-                      [this] { deliver_captures(); }) {
+          data_socket(
+              hub, data, lossless, board, options.session, static_cast<std::size_t>(options.soft_message_limit),
+              [this] { deliver_captures(); }, [this] { refresh_counts(); }) {
         events_socket.set(zmq::sockopt::sndhwm, 10'000);
         events_socket.set(zmq::sockopt::xpub_verbose, true);
         // What subscribers send are topics.

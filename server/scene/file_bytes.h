@@ -1,14 +1,12 @@
-// Whole files, and numbers of any type that files store them in.
+// Numbers of any type and byte order that files store them in.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <utility>
 
 namespace headrace::scene {
 
@@ -31,10 +29,13 @@ constexpr std::size_t size_of(NumberType type) {
     }
 }
 
-// A little-endian number. Precondition: there are size_of(type) bytes.
-inline double read_number(NumberType type, const char* bytes) {
-    const auto as = [bytes](auto value) {
-        std::memcpy(&value, bytes, sizeof value);
+// A number as it lies in the file. Precondition: there are size_of(type) bytes.
+inline double read_number(NumberType type, std::endian order, const char* bytes) {
+    const auto as = [&](auto value) {
+        std::array<char, sizeof value> own;
+        std::copy_n(bytes, own.size(), own.begin());
+        if (order != std::endian::native) std::reverse(own.begin(), own.end());
+        std::memcpy(&value, own.data(), own.size());
         return static_cast<double>(value);
     };
     switch (type) {

@@ -42,26 +42,29 @@ proto::Result<ParticleTable> read_csv(const std::filesystem::path& file) {
     };
 
     std::string line;
-    if (!std::getline(in, line)) return wrong("there is no line of titles");
+    if (!std::getline(in, line))
+        return wrong("there is no line of titles", "the first line names the columns: position_x,position_y");
+    if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets mark UTF-8
     ParticleTable table;
     std::vector<std::vector<double>*> columns;  // null: of no use here
     std::vector<std::string> titles;
     std::string doubled;
     for_each_cell(line, [&](std::size_t, std::string_view title) {
         titles.emplace_back(trimmed(title.substr(0, title.find('['))));
+        table.names.push_back(titles.back());
         columns.push_back(nullptr);
         if (!is_particle_column(titles.back())) return;
-        const auto [place, is_new] = table.try_emplace(titles.back());
+        const auto [place, is_new] = table.columns.try_emplace(titles.back());
         if (!is_new) doubled = titles.back();
         columns.back() = &place->second;
     });
-    if (!doubled.empty()) return wrong("there are two columns " + doubled);
+    if (!doubled.empty()) return wrong("there are two columns " + doubled, "leave one of them out");
 
     std::int64_t rows = 0;
     while (std::getline(in, line)) {
         ++line_number;
         if (trimmed(line).empty()) continue;
-        if (++rows > kMostParticlesOfFile) return wrong("too many particles");
+        if (++rows > kMostParticlesOfFile) return wrong("too many particles", kTooManyHint);
         std::string problem;
         const std::size_t cells = for_each_cell(line, [&](std::size_t column, std::string_view cell) {
             if (column >= columns.size() || columns[column] == nullptr) return;
@@ -74,9 +77,10 @@ proto::Result<ParticleTable> read_csv(const std::filesystem::path& file) {
         });
         if (!problem.empty()) return wrong(problem, "numbers have a point, and commas only between them");
         if (cells != titles.size())
-            return wrong(std::to_string(cells) + " columns where line 1 has " + std::to_string(titles.size()));
+            return wrong(std::to_string(cells) + " columns where line 1 has " + std::to_string(titles.size()),
+                         "each line has as many; is the file complete?");
     }
-    if (in.bad()) return Error{ErrorCode::file_error, "cannot read " + name, "", ""};
+    if (in.bad()) return Error{ErrorCode::file_error, "cannot read " + name + " to its end", "", "copy it anew"};
     return table;
 }
 

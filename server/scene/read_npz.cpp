@@ -2,7 +2,7 @@
 // Others are not looked at. Format: numpy.lib.format, versions 1.0 to 3.0.
 #include <zip.h>
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <memory>
 #include <optional>
@@ -19,7 +19,7 @@ using proto::Result;
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are read as they lie in the file");
+constexpr const char* kCompleteHint = "is the file complete? numpy.savez and headrace convert make such files";
 
 struct CloseArchive {
     void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -28,26 +28,30 @@ struct CloseArchive {
 
 struct Array {
     NumberType type{};
+    std::endian order{};
     bool is_fortran{false};  // columns one after the other
     std::vector<std::size_t> shape;
     std::size_t values_at{};  // where its numbers begin
 };
 
+// "<f4": byte order, then what the number is.
 std::optional<NumberType> number_type(const std::string& descr) {
     constexpr std::pair<std::string_view, NumberType> kTypes[] = {
-        {"|i1", NumberType::i1}, {"|u1", NumberType::u1}, {"<i2", NumberType::i2}, {"<u2", NumberType::u2},
-        {"<i4", NumberType::i4}, {"<u4", NumberType::u4}, {"<i8", NumberType::i8}, {"<u8", NumberType::u8},
-        {"<f4", NumberType::f4}, {"<f8", NumberType::f8}};
+        {"i1", NumberType::i1}, {"u1", NumberType::u1}, {"i2", NumberType::i2}, {"u2", NumberType::u2},
+        {"i4", NumberType::i4}, {"u4", NumberType::u4}, {"i8", NumberType::i8}, {"u8", NumberType::u8},
+        {"f4", NumberType::f4}, {"f8", NumberType::f8}};
+    if (descr.empty() || std::string_view("|<>").find(descr[0]) == std::string_view::npos) return std::nullopt;
     for (const auto& [name, type] : kTypes)
-        if (name == descr) return type;
+        if (name == descr.substr(1)) return type;
     return std::nullopt;
 }
 
 // The description in front of an array; the error says what is wrong with it.
 Result<Array> parse_header(const std::string& bytes) {
-    const auto wrong = [](std::string message, std::string hint = {}) {
+    const auto wrong = [](std::string message, std::string hint = kCompleteHint) {
         return Error{ErrorCode::scene_invalid, std::move(message), "", std::move(hint)};
     };
+    constexpr const char* kTypeHint = "save it as float32 or float64: array.astype(numpy.float32)";
     if (bytes.size() < 12 || !bytes.starts_with("\x93NUMPY")) return wrong("is not a NumPy array");
     const auto byte = [&](std::size_t k) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[k])); };
     const std::size_t length_bytes = byte(6) == 1 ? 2 : 4;
@@ -61,11 +65,11 @@ Result<Array> parse_header(const std::string& bytes) {
     static const std::regex descr("'descr': *'([^']*)'"), order("'fortran_order': *(True|False)"),
         shape(R"('shape': *\(([0-9, ]*)\))");
     std::smatch found;
-    if (!std::regex_search(text, found, descr)) return wrong("is not an array of plain numbers");
+    if (!std::regex_search(text, found, descr)) return wrong("is not an array of plain numbers", kTypeHint);
     const auto type = number_type(found[1]);
-    if (!type)
-        return wrong("has the type " + found[1].str(), "save it as float32 or float64, in the byte order of PCs");
+    if (!type) return wrong("has the type " + found[1].str() + ", which is not read here", kTypeHint);
     array.type = *type;
+    array.order = found[1].str()[0] == '>' ? std::endian::big : std::endian::little;
     if (!std::regex_search(text, found, order)) return wrong("has a damaged description");
     array.is_fortran = found[1] == "True";
     if (!std::regex_search(text, found, shape)) return wrong("has a damaged description");
@@ -83,20 +87,25 @@ Result<Array> parse_header(const std::string& bytes) {
     return array;
 }
 
-// A member of the archive, unpacked; nothing when it is not there.
+// A member of the archive, unpacked; nothing when it is not there. Memory grows with what is really there, not with the
+// size that the archive claims.
 Result<std::optional<std::string>> read_member(zip_t* archive, const std::string& name) {
     zip_stat_t stat;
     zip_stat_init(&stat);
     if (zip_stat(archive, name.c_str(), 0, &stat) != 0) return std::optional<std::string>{};
-    constexpr zip_uint64_t kMostBytes = kMostParticlesOfFile * 3 * 8 + 4096;
-    if (stat.size > kMostBytes)
-        return Error{ErrorCode::scene_invalid, "has too many particles", "", "the server takes 50,000,000"};
+    constexpr zip_uint64_t kMostBytes = kMostParticlesOfFile * 3 * 8 + 4096, kBlock = 1 << 20;
+    if (stat.size > kMostBytes) return Error{ErrorCode::scene_invalid, "has too many particles", "", kTooManyHint};
     const std::unique_ptr<zip_file_t, CloseArchive> file(zip_fopen(archive, name.c_str(), 0));
-    std::string bytes(stat.size, '\0');
-    const zip_int64_t got = file ? zip_fread(file.get(), bytes.data(), bytes.size()) : -1;
-    char next = 0;  // reading on to the end is what checks the member's CRC
-    if (got != static_cast<zip_int64_t>(bytes.size()) || zip_fread(file.get(), &next, 1) != 0)
-        return Error{ErrorCode::scene_invalid, "cannot be unpacked", "", "is the file complete?"};
+    std::string bytes;
+    zip_int64_t got = file ? 1 : -1;
+    while (got > 0 && bytes.size() <= stat.size) {  // reading on to the end is what checks the member's CRC
+        const std::size_t so_far = bytes.size();
+        bytes.resize(so_far + kBlock);
+        got = zip_fread(file.get(), bytes.data() + so_far, kBlock);
+        bytes.resize(so_far + static_cast<std::size_t>(std::max<zip_int64_t>(got, 0)));
+    }
+    if (got != 0 || bytes.size() != stat.size)
+        return Error{ErrorCode::scene_invalid, "cannot be unpacked", "", kCompleteHint};
     return std::optional(std::move(bytes));
 }
 
@@ -111,15 +120,18 @@ Result<bool> take_array(zip_t* archive, const std::string& field, bool is_vector
     const bool fits = is_vector ? shape.size() == 2 && (shape[1] == 2 || shape[1] == 3) : shape.size() == 1;
     if (!fits)
         return Error{ErrorCode::scene_invalid,
-                     std::string("does not have the shape ") + (is_vector ? "(n, 2) or (n, 3)" : "(n,)"), "", ""};
+                     std::string("does not have the shape ") + (is_vector ? "(n, 2) or (n, 3)" : "(n,)"), "",
+                     "n is the number of particles, the other a component of each: array.reshape, or array.T"};
     const std::size_t rows = shape[0], components = is_vector ? shape[1] : 1;
+    if (rows > static_cast<std::size_t>(kMostParticlesOfFile))
+        return Error{ErrorCode::scene_invalid, "has too many particles", "", kTooManyHint};
     const char* values = (*bytes)->data() + array->values_at;
     for (std::size_t axis = 0; axis < components; ++axis) {
-        std::vector<double>& column = table[is_vector ? field + "_" + "xyz"[axis] : field];
+        std::vector<double>& column = table.columns[is_vector ? field + "_" + "xyz"[axis] : field];
         column.resize(rows);
         for (std::size_t row = 0; row < rows; ++row) {
             const std::size_t place = array->is_fortran ? axis * rows + row : row * components + axis;
-            column[row] = read_number(array->type, values + place * size_of(array->type));
+            column[row] = read_number(array->type, array->order, values + place * size_of(array->type));
         }
     }
     return true;
@@ -132,7 +144,7 @@ Result<ParticleTable> read_npz(const std::filesystem::path& file) {
     int failure = 0;
     const std::unique_ptr<zip_t, CloseArchive> archive(zip_open(file.c_str(), ZIP_RDONLY, &failure));
     if (!archive)
-        return Error{ErrorCode::scene_invalid, name + " is not a zip archive", "",
+        return Error{ErrorCode::scene_invalid, name + " is not a zip archive, or not all of one", "",
                      "numpy.savez and headrace convert --format npz make .npz files"};
     ParticleTable table;
     for (const auto& [field, is_vector] : {std::pair("position", true), {"velocity", true}, {"pressure", false}}) {
@@ -143,12 +155,20 @@ Result<ParticleTable> read_npz(const std::filesystem::path& file) {
             return error;
         }
     }
-    for (const auto& [column, values] : table)
-        if (values.size() != table.begin()->second.size())
+    for (zip_int64_t k = 0; k < zip_get_num_entries(archive.get(), 0); ++k) {
+        const char* member = zip_get_name(archive.get(), static_cast<zip_uint64_t>(k), 0);
+        std::string array = member != nullptr ? member : "";
+        if (array.ends_with(".npy")) array.resize(array.size() - 4);
+        table.names.push_back(std::move(array));
+    }
+    for (const auto& [column, values] : table.columns) {
+        const auto& [first, first_values] = *table.columns.begin();
+        if (values.size() != first_values.size())
             return Error{ErrorCode::scene_invalid,
                          name + ", array of " + column + " has " + std::to_string(values.size()) + " rows where " +
-                             table.begin()->first + " has " + std::to_string(table.begin()->second.size()),
-                         "", ""};
+                             first + " has " + std::to_string(first_values.size()),
+                         "", "a row for each particle in all of them"};
+    }
     return table;
 }
 

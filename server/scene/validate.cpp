@@ -167,25 +167,28 @@ Status validate_formulas(const proto::SceneDesc& scene) {
     return Done{};
 }
 
-// Why the fluid cannot start with a particle at x, told of its shape.
-Status check_place(const proto::SceneDesc& scene, const std::vector<std::optional<solver::RigidState>>& states,
-                   const proto::Vec3& x, const std::string& path) {
-    const proto::ShapeDesc domain = proto::BoxDesc{scene.domain.min, scene.domain.max};
-    const double slack = 1e-9 * scene.spacing;  // rounding in the document
+struct Misplaced {
+    std::string message;
+    std::string hint;  // what to do besides changing the fluid; begins with a verb
+};
+
+// Why the fluid cannot start with a particle at x; nothing: it can. `slack` [m]: how far x may be off.
+std::optional<Misplaced> check_place(const proto::SceneDesc& scene,
+                                     const std::vector<std::optional<solver::RigidState>>& states, const proto::Vec3& x,
+                                     double slack) {
     for (std::size_t k = 0; k < states.size(); ++k) {
         const proto::ObjectDesc& object = scene.objects[k];
         if (may_hold_fluid(object, states[k], x, scene.dimensions, slack)) continue;
         if (std::holds_alternative<proto::PlaneDesc>(object.shape))
-            return invalid(path, "reaches behind plane \"" + object.name + "\"",
-                           "shrink the fluid or move the plane; its normal points towards the fluid");
+            return Misplaced{"reaches behind plane \"" + object.name + "\"",
+                             "move the plane; its normal points towards the fluid"};
         if (object.role == proto::ObjectRole::container)
-            return invalid(path, "reaches out of container \"" + object.name + "\"",
-                           "shrink the fluid or enlarge the container");
-        return invalid(path, "overlaps obstacle \"" + object.name + "\"", "shrink the fluid or move the obstacle");
+            return Misplaced{"reaches out of container \"" + object.name + "\"", "enlarge the container"};
+        return Misplaced{"overlaps obstacle \"" + object.name + "\"", "move the obstacle"};
     }
-    if (!contains(domain, x, scene.dimensions))
-        return invalid(path, "reaches out of the domain", "enlarge scene.domain");
-    return Done{};
+    if (!contains(proto::BoxDesc{scene.domain.min, scene.domain.max}, x, scene.dimensions))
+        return Misplaced{"reaches out of the domain", "enlarge scene.domain"};
+    return std::nullopt;
 }
 
 // A start inside an obstacle or outside a container would be a violent projection at the first step.
@@ -207,7 +210,14 @@ Status validate_start(const proto::SceneDesc& scene, BuildControl& control, cons
         const auto check = [&](const proto::Vec3& x) {
             ++points;
             if (points % 65'536 == 0) control.progress = 0.4 * static_cast<double>(points) / static_cast<double>(cells);
-            outcome = check_place(scene, states, x, path);
+            const double slack = 1e-9 * scene.spacing + (is_file ? rounding_at(x, scene.dimensions) : 0.0);
+            if (const auto wrong = check_place(scene, states, x, slack)) {
+                const std::string particle =
+                    "particle " + std::to_string(points - 1) + " at " + place_text(x, scene.dimensions);
+                outcome = is_file ? invalid(path, wrong->message + " with " + particle,
+                                            "leave the particle out of the file, or " + wrong->hint)
+                                  : invalid(path, wrong->message, "shrink the fluid, or " + wrong->hint);
+            }
             return outcome.ok() && !control.cancelled;
         };
         if (is_file)

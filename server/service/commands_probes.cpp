@@ -52,13 +52,15 @@ void add_probe_commands(CommandTable& table, CommandContext& context) {
                                 [&context](proto::ProbesAdd params, Responder& responder) {
                                     post_mutation(context, std::move(params), responder);
                                 });
-    table.add<proto::ProbesRemove>("probes.remove",
-                                   {{ErrorCode::probe_not_found, ErrorCode::wrong_state, ErrorCode::busy}},
-                                   [&context](proto::ProbesRemove params, Responder& responder) {
-                                       post_mutation(context, std::move(params), responder);
-                                   });
+    table.add<proto::ProbesRemove>(
+        "probes.remove",
+        {{ErrorCode::probe_not_found, ErrorCode::limit_exceeded, ErrorCode::wrong_state, ErrorCode::busy}},
+        [&context](proto::ProbesRemove params, Responder& responder) {
+            post_mutation(context, std::move(params), responder);
+        });
     table.add<proto::SimInspect>(
-        "sim.inspect", {{ErrorCode::particle_not_found, ErrorCode::wrong_state, ErrorCode::busy}},
+        "sim.inspect",
+        {{ErrorCode::particle_not_found, ErrorCode::limit_exceeded, ErrorCode::wrong_state, ErrorCode::busy}},
         [&context](const proto::SimInspect& params, Responder& responder) { inspect(context, params, responder); });
 }
 

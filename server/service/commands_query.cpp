@@ -84,13 +84,14 @@ void add_query_commands(CommandTable& table, CommandContext& context) {
             if (document->is_null()) *document = make_description(table);
             responder.reply(*document);
         });
-    table.add<proto::SimStatus>("sim.status", {}, [&context](const proto::SimStatus& params, Responder& responder) {
-        answer_status(context, params, responder);
-    });
+    table.add<proto::SimStatus>("sim.status", {{ErrorCode::limit_exceeded, ErrorCode::wrong_state}},
+                                [&context](const proto::SimStatus& params, Responder& responder) {
+                                    answer_status(context, params, responder);
+                                });
     table.add<proto::JobWait>(
-        "job.wait", {{ErrorCode::job_not_found, ErrorCode::timed_out}},
+        "job.wait", {{ErrorCode::job_not_found, ErrorCode::limit_exceeded, ErrorCode::timed_out}},
         [&context](const proto::JobWait& params, Responder& responder) { answer_job(context, params, responder); });
-    table.add<proto::EventsSince>("events.since", {},
+    table.add<proto::EventsSince>("events.since", {{ErrorCode::limit_exceeded}},
                                   [&context](const proto::EventsSince& params, Responder& responder) {
                                       answer_events(context, params, responder);
                                   });

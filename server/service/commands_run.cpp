@@ -78,23 +78,27 @@ void add_prompt_mutation(CommandTable& table, CommandContext& context, std::stri
 }  // namespace
 
 void add_run_commands(CommandTable& table, CommandContext& context) {
-    add_mutation<proto::SimStep>(table, context, "sim.step",
-                                 {{ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
-    add_mutation<proto::SimRun>(
-        table, context, "sim.run",
-        {{ErrorCode::probe_not_found, ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
-    add_prompt_mutation<proto::SimPause>(table, context, "sim.pause", {{ErrorCode::wrong_state, ErrorCode::busy}});
-    add_mutation<proto::SimResume>(table, context, "sim.resume", {{ErrorCode::wrong_state, ErrorCode::busy}});
-    add_prompt_mutation<proto::SimCancel>(table, context, "sim.cancel", {});
+    add_mutation<proto::SimStep>(
+        table, context, "sim.step",
+        {{ErrorCode::limit_exceeded, ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
+    add_mutation<proto::SimRun>(table, context, "sim.run",
+                                {{ErrorCode::probe_not_found, ErrorCode::limit_exceeded, ErrorCode::wrong_state,
+                                  ErrorCode::busy, ErrorCode::cancelled}});
+    add_prompt_mutation<proto::SimPause>(table, context, "sim.pause",
+                                         {{ErrorCode::limit_exceeded, ErrorCode::wrong_state, ErrorCode::busy}});
+    add_mutation<proto::SimResume>(table, context, "sim.resume",
+                                   {{ErrorCode::limit_exceeded, ErrorCode::wrong_state, ErrorCode::busy}});
+    add_prompt_mutation<proto::SimCancel>(table, context, "sim.cancel", {{ErrorCode::limit_exceeded}});
     add_mutation<proto::SimReset>(table, context, "sim.reset",
-                                  {{ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
+                                  {{ErrorCode::scene_invalid, ErrorCode::file_error, ErrorCode::limit_exceeded,
+                                    ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
 
     table.add_query<proto::ParamsGet, proto::ParamsGetReply>(
         "params.get", {{ErrorCode::parameter_not_found, ErrorCode::wrong_state, ErrorCode::busy}},
         [&context](const proto::ParamsGet& params) { return get_parameters(context, params); });
-    add_mutation<proto::ParamsSet>(
-        table, context, "params.set",
-        {{ErrorCode::parameter_not_found, ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}});
+    add_mutation<proto::ParamsSet>(table, context, "params.set",
+                                   {{ErrorCode::parameter_not_found, ErrorCode::limit_exceeded, ErrorCode::wrong_state,
+                                     ErrorCode::busy, ErrorCode::cancelled}});
     table.add<proto::ServerShutdown>("server.shutdown", {}, [&context](proto::ServerShutdown, Responder& responder) {
         shut_down(context, responder);
     });

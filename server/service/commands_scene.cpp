@@ -61,7 +61,7 @@ void add_scene_commands(CommandTable& table, CommandContext& context) {
     table.add<proto::SceneLoad>(
         "scene.load",
         {{ErrorCode::scene_not_found, ErrorCode::scene_invalid, ErrorCode::parameter_not_found, ErrorCode::file_error,
-          ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}},
+          ErrorCode::limit_exceeded, ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::cancelled}},
         [&context](proto::SceneLoad params, Responder& responder) {
             Result<proto::SceneDesc> scene = resolve_scene(params);
             if (!scene) return responder.fail(scene.error());
@@ -89,16 +89,18 @@ void add_scene_commands(CommandTable& table, CommandContext& context) {
                                  [&context](proto::ObjectsAdd params, Responder& responder) {
                                      post_mutation(context, std::move(params), responder);
                                  });
-    table.add<proto::ObjectsMove>("objects.move",
-                                  {{ErrorCode::object_not_found, ErrorCode::wrong_state, ErrorCode::busy}},
-                                  [&context](proto::ObjectsMove params, Responder& responder) {
-                                      post_mutation(context, std::move(params), responder);
-                                  });
-    table.add<proto::ObjectsRemove>("objects.remove",
-                                    {{ErrorCode::object_not_found, ErrorCode::wrong_state, ErrorCode::busy}},
-                                    [&context](proto::ObjectsRemove params, Responder& responder) {
-                                        post_mutation(context, std::move(params), responder);
-                                    });
+    table.add<proto::ObjectsMove>(
+        "objects.move",
+        {{ErrorCode::object_not_found, ErrorCode::limit_exceeded, ErrorCode::wrong_state, ErrorCode::busy}},
+        [&context](proto::ObjectsMove params, Responder& responder) {
+            post_mutation(context, std::move(params), responder);
+        });
+    table.add<proto::ObjectsRemove>(
+        "objects.remove",
+        {{ErrorCode::object_not_found, ErrorCode::limit_exceeded, ErrorCode::wrong_state, ErrorCode::busy}},
+        [&context](proto::ObjectsRemove params, Responder& responder) {
+            post_mutation(context, std::move(params), responder);
+        });
 }
 
 }  // namespace headrace::server

@@ -25,7 +25,7 @@ void refuse_socket(Responder& responder) {
 }  // namespace
 
 void add_stream_commands(CommandTable& table, CommandContext& context) {
-    table.add<proto::FrameGet>("frame.get", {{ErrorCode::wrong_state, ErrorCode::wrong_socket}},
+    table.add<proto::FrameGet>("frame.get", {{ErrorCode::wrong_state, ErrorCode::busy, ErrorCode::wrong_socket}},
                                [](proto::FrameGet, Responder& responder) { refuse_socket(responder); });
     table.add<proto::StreamOpen>("stream.open",
                                  {{ErrorCode::limit_exceeded, ErrorCode::stream_not_found, ErrorCode::wrong_socket}},
@@ -35,7 +35,7 @@ void add_stream_commands(CommandTable& table, CommandContext& context) {
                                  });
     table.add<proto::StreamAck>("stream.ack", {{ErrorCode::stream_not_found, ErrorCode::wrong_socket}},
                                 [](proto::StreamAck, Responder& responder) { refuse_socket(responder); });
-    table.add<proto::StreamClose>("stream.close", {{ErrorCode::stream_not_found}},
+    table.add<proto::StreamClose>("stream.close", {{ErrorCode::limit_exceeded, ErrorCode::stream_not_found}},
                                   [&context](proto::StreamClose params, Responder& responder) {
                                       post_to_publisher(context, std::move(params), responder);
                                   });
@@ -46,7 +46,7 @@ void add_stream_commands(CommandTable& table, CommandContext& context) {
         [&context](proto::RecordStart params, Responder& responder) {
             post_to_publisher(context, std::move(params), responder);
         });
-    table.add<proto::RecordStop>("record.stop", {{ErrorCode::recording_not_found}},
+    table.add<proto::RecordStop>("record.stop", {{ErrorCode::limit_exceeded, ErrorCode::recording_not_found}},
                                  [&context](proto::RecordStop params, Responder& responder) {
                                      post_to_publisher(context, std::move(params), responder);
                                  });

@@ -104,6 +104,7 @@ Json describe_method(const CommandTable::Entry& entry) {
     Json errors = Json::array();
     for (ErrorCode code : kCommonErrors) errors.push_back(error_entry(code));
     for (ErrorCode code : entry.rules.errors) errors.push_back(error_entry(code));
+    if (entry.info.socket == proto::MethodSocket::control) errors.push_back(error_entry(ErrorCode::wrong_socket));
     return {{"name", entry.info.name},
             {"summary", entry.info.summary},
             {"paramStructure", "by-name"},

@@ -13,7 +13,7 @@ import json
 findings = json.load(open("findings.json"))
 subjects = [f["subject"] for f in findings]
 assert subjects == ["client", "instruction sets", "threads", "open files", "size of files", "this folder",
-                    "temporary folder", "private server", "server"], subjects
+                    "temporary folder", "ffmpeg", "Python", "private server", "server"], subjects
 assert all(f["health"] in ("ok", "warning") for f in findings)
 assert all(bool(f["remedy"]) == (f["health"] != "ok") for f in findings), "a remedy for all that is not in order, and only that"
 PYTHON
@@ -24,6 +24,22 @@ expect 0 '.*warning +open files +at most 256.*-> many subscribers need more: uli
 expect 0 '.*warning +size of files +at most [0-9]+ bytes.*ulimit -f unlimited.*' \
     bash -c 'ulimit -f 1000; exec "$1" doctor' - "$headrace"
 expect 0 '.*warning +threads +.*OMP_NUM_THREADS=4096.*unset OMP_NUM_THREADS.*' env OMP_NUM_THREADS=4096 "$headrace" doctor
+
+# So do programs that only some of the work needs. A PATH with none of them, with a Python that lacks both modules, and
+# with one that has them.
+mkdir bare
+expect 0 '.*warning +ffmpeg +not on the PATH.*apt install ffmpeg.*warning +Python +no python3 on the PATH.*python3-zmq.*' \
+    env PATH="$work/bare" "$headrace" doctor
+for modules in '|' '25.1|1.24'; do
+    printf '#!/bin/sh\necho "/opt/python3|3.9.9|%s"\n' "$modules" >bare/python3
+    chmod +x bare/python3
+    case $modules in
+    '|') expect 0 '.*warning +Python +/opt/python3 3\.9\.9, no pyzmq, no NumPy.*/opt/python3 -m pip install pyzmq numpy.*' \
+        env PATH="$work/bare" "$headrace" doctor ;;
+    *) expect 0 '.*ok +Python +/opt/python3 3\.9\.9, pyzmq 25\.1, NumPy 1\.24.*' env PATH="$work/bare" "$headrace" doctor ;;
+    esac
+done
+[[ $("$headrace" doctor) =~ folder\ +[^ ]+,\ ([0-9],)?[0-9]+(\.[0-9])?\ GiB\ free ]] || fail "too many digits: $output"
 
 # Failures, with the exit status of the first.
 expect 3 '.*failure +private server +HEADRACE_SERVER_BINARY is no program.*error connection_failed \(private server\): 1 failure found; .*' \

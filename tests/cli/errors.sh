@@ -42,7 +42,8 @@ expect 6 'error file_error \(.*missing.mcap\): .*' "$headrace" info missing.mcap
 expect 6 'error file_error \(missing.json\): .*' "$headrace" load missing.json
 expect 6 'error file_error \(.*nowhere/x.mcap\): .*' "$headrace" record nowhere/x.mcap --for 0.1
 : >taken.mcap
-expect 6 'error file_error \(.*taken.mcap\): .*' "$headrace" record taken.mcap --for 0.1
+expect 6 'error file_error \(taken\.mcap\): cannot create the file: File exists; .* --overwrite, .*' \
+    "$headrace" record taken.mcap --for 0.1
 # 8: the time given has passed, here 0.05 s for a cube that has to fall first
 expect 8 'error timed_out: .*; go on with: headrace resume --until at-rest' \
     "$headrace" resume --until at-rest --timeout 0.05

@@ -77,15 +77,15 @@ refuse wide.csv 'wide\.csv, line 2: 3 columns where line 1 has 2.*'
 printf 'position_x,density\n0.1,1\n' >data/half.csv
 refuse half.csv 'half\.csv, there is no position_y; .*'
 printf 'velocity_x,velocity_y\n1,1\n' >data/nowhere.csv
-refuse nowhere.csv 'nowhere\.csv, there (are no positions|is no particle); .*'
+refuse nowhere.csv 'nowhere\.csv, column position_x is missing; there are the columns velocity_x, velocity_y; .*'
 printf 'position_x,position_y\n0.1,nan\n' >data/nan.csv
 refuse nan.csv 'nan\.csv, position_y of particle 0 is not finite.*'
 printf 'position_x,position_y\n0.1,0.9\n' >data/outside.csv
-refuse outside.csv 'reaches out of container "tank"; .*'
+refuse outside.csv 'reaches out of container "tank" with particle 0 at \(0\.1, 0\.9\) m; leave the particle out .*'
 printf 'position_x,position_y,position_z\n0.1,0.1,0.2\n' >data/solid.csv
 refuse solid.csv 'solid\.csv, position_z of particle 0 is not 0 in a scene of 2 dimensions; .*'
 echo nothing >data/broken.npz
-refuse broken.npz 'broken\.npz is not a zip archive; .*'
+refuse broken.npz 'broken\.npz is not a zip archive, or not all of one; .*'
 head -c 3000 data/flat.npz >data/cut.npz
 refuse cut.npz 'cut\.npz .*'
 head -c 1000 data/flat.ply >data/cut.ply

@@ -20,6 +20,11 @@ done
 [ $examples -ge 3 ] || fail "only $examples examples"
 expect 0 'wave\.mcap: complete, 51 frames, 0 gaps, .*' "$headrace" info wave.mcap
 
+# Times have the digits that they mean; all of them with --json, for programs. 30 steps of 0.01 s add up to a bit more.
+printf '%s\n' '{"method": "scene.load", "params": {"scene": "bowl"}}' '{"method": "sim.run", "params": {"until": {"steps": 30}, "wait": true}}' >times.jsonl
+expect_result 0 '.*2 sim\.run: \{.*"time":0\.3[,}].*' "$headrace" script times.jsonl
+expect_result 0 '.*"time":0\.30000000000000[0-9]+[,}].*' "$headrace" --json script times.jsonl
+
 # Types are kept: a number is a number, a string a string, and text goes into text.
 cat >types.jsonl <<'JSON'
 

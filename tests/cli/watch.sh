@@ -9,7 +9,7 @@ cd "$work" || exit 1
 expect 2 'error usage: this needs a terminal; headrace watch --once prints one snapshot' "$headrace" watch
 expect 0 "no scene  empty  $HEADRACE_SERVER" "$headrace" watch --once
 expect 0 'water_dam_break: .*' "$headrace" load water_dam_break
-expect 0 'water_dam_break \(wcsph\)  idle  .*time +0 s.step +0.*particles +1,800.*density error +mean .*' "$headrace" watch --once
+expect 0 'water_dam_break \(wcsph\)  idle  .*time +0 s.step +0.*particles +1,800.*energy error +not followed: a probe of the kind energies .*density error +mean .*' "$headrace" watch --once
 expect 0 '\{.*"time_step_limit": .*\}' "$headrace" --json watch
 expect 3 'error connection_failed: .*' "$headrace" --server "ipc://$work/nobody" watch --once
 
@@ -61,9 +61,17 @@ sees 'water_dam_break \(wcsph\)  running'
 sees 'step  +[1-9]'
 sees 'steps/s +[1-9][0-9.]* +[▁▂▃▄▅▆▇█]*[▂▃▄▅▆▇█]'
 sees 'time step .*limit: [a-z]'
-! shows 'energy error' || fail "an energy error without a probe that tells it"
+sees 'energy error +not followed, .*: e adds a probe'
+press e
+sees 'following energies \(e ends that\) at step [0-9]'
+sees 'energy error +-?[0-9.e-]+ J/m '
+press e
+sees 'no longer following energies at step [0-9]'
+sees 'energy error +not followed'
 expect 0 '.*' "$headrace" call probes.add '{"probe": {"name": "energy", "kind": {"energies": {}}}}'
 sees 'energy error +-?[0-9]'
+press e
+sees 'the probe energy tells the energy error already'
 
 # Keys
 press p

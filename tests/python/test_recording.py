@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import pathlib
 from typing import Any
 
@@ -35,7 +36,7 @@ def arrays(frame: headrace.Frame) -> list[Any]:
 def test_a_recording_holds_the_frames_that_were_streamed(recorded: Any) -> None:
     file, frames, _ = recorded
     recording = headrace.Recording(file)
-    assert recording.is_complete and recording.damaged_bytes == 0
+    assert recording.is_complete and recording.damaged_bytes == recording.gaps == 0
     assert [arrays(frame) for frame in recording] == [arrays(frame) for frame in frames]
     # log_time is in whole nanoseconds.
     assert recording.times == pytest.approx([frame.time for frame in frames], abs=1e-9)
@@ -96,6 +97,31 @@ def test_a_damaged_frame_is_named_and_the_others_are_not_affected(recorded: Any,
     scanned = headrace.Recording(damaged)
     assert [frame.step for frame in scanned] == [0, 5, 10, 15, 25, 30, 35, 40, 45, 50]
     assert scanned.damaged_bytes > 0
+
+
+def test_missing_frames_are_counted_as_the_other_client_does(recorded: Any, program: pathlib.Path,
+                                                             tmp_path: pathlib.Path) -> None:
+    file, _, _ = recorded
+    content = file.read_bytes()
+    places = headrace.Recording(file)._places[1]
+
+    def torn(*frames: int, cut: int = 20) -> bytes:
+        """Without these frames, and without so many bytes at the end."""
+        left = bytearray(content)
+        for frame in frames:
+            left[places[frame].offset + 200] ^= 1
+        return bytes(left[: len(left) - cut])
+
+    cases = {"whole": (content, 0), "cut": (torn(), 0), "one": (torn(4), 1), "two": (torn(2, 3), 1), "apart": (torn(2, 7), 2),
+             "end": (torn(10), 0), "half": (torn(3, cut=len(content) - places[8].offset - 50), 1)}
+    for name, (bytes_left, gaps) in cases.items():
+        path = tmp_path / f"{name}.mcap"
+        path.write_bytes(bytes_left)
+        ours, theirs = headrace.Recording(path), json.loads(run(program, "--json", "info", path).stdout)
+        assert ours.gaps == gaps, name
+        assert (ours.gaps, len(ours), ours.damaged_bytes, ours.is_complete) == (
+            theirs["gaps"], theirs["frames"], theirs["damaged_bytes"], theirs["complete"]), name
+    assert "1 gap, incomplete" in repr(headrace.Recording(tmp_path / "one.mcap"))
 
 
 def test_a_damaged_summary_is_not_believed(recorded: Any, tmp_path: pathlib.Path) -> None:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import csv
 import itertools
 import pathlib
+import signal
+import subprocess
+import sys
 from typing import Any
 
 import headrace
@@ -14,6 +17,17 @@ from headrace import Frame
 from headrace._stream import LosslessSource
 
 from conftest import run, tank
+
+# A reader in a process of its own: tells the stream's name and the number of each frame that it has dealt with, and is
+# killed when it has dealt with the seventh.
+READER = """
+import os, signal, sys, headrace
+sim = headrace.Simulation(sys.argv[1])
+for frame in (stream := sim.stream(["id"], every=1, window=4, until="step=60")):
+    print(stream.id, frame.seq, flush=True)
+    if frame.seq == 7:
+        os.kill(os.getpid(), signal.SIGKILL)
+"""
 
 
 def test_a_lossless_stream_has_no_gaps(sim: Any) -> None:
@@ -44,6 +58,41 @@ def test_a_stream_of_a_run_started_elsewhere_ends_with_it(sim: Any) -> None:
         sim.run(until="step=20", wait=False)
         assert [frame.step for frame in stream] == list(range(21))
         assert stream.read() is None
+
+
+def test_a_stream_whose_reader_was_killed_is_resumed_without_a_lost_frame(sim: Any) -> None:
+    reader = subprocess.run([sys.executable, "-c", READER, sim.endpoint], stdout=subprocess.PIPE, text=True, timeout=300)
+    assert reader.returncode == -signal.SIGKILL
+    told = [line.split() for line in reader.stdout.splitlines()]
+    name, last = told[-1][0], int(told[-1][1])
+    with sim.stream(resume=name, acked=last) as stream:
+        frames = list(stream)
+        assert stream.id == name
+    assert [int(seq) for _, seq in told] + [frame.seq for frame in frames] == list(range(1, 62))
+    assert [frame.step for frame in frames] == list(range(last, 61)) and all(list(frame) == ["id"] for frame in frames)
+    assert sim.wait().state == "finished" and sim.status().streams == 0
+
+
+def test_resuming_from_what_was_acknowledged_repeats_what_was_not(sim: Any) -> None:
+    first = sim.stream(every=1, window=4, until="step=20")
+    assert [first.read().seq for _ in range(3)] == [1, 2, 3]  # asking for the third has acknowledged the second
+    with sim.stream(resume=first.id) as stream:
+        assert [frame.seq for frame in stream] == list(range(3, 22))
+    first.close()
+
+
+def test_streams_are_resumed_as_they_were_opened(sim: Any) -> None:
+    for options in ({"acked": 3}, {"resume": "data/1", "every": 2}, {"resume": "data/1", "lossless": False},
+                    {"resume": "data/1", "window": 4}):
+        with pytest.raises(headrace.Usage):
+            sim.stream(**options)
+    with pytest.raises(headrace.StreamNotFound):
+        list(sim.stream(resume="data/none"))
+    with sim.stream(every=1, until="step=20") as stream:
+        assert stream.read().seq == 1
+        with pytest.raises(headrace.InvalidParams, match="not between"):
+            list(sim.stream(resume=stream.id, acked=1000))
+        assert [frame.seq for frame in stream] == list(range(2, 22))
 
 
 def test_a_lost_frame_is_told(sim: Any, monkeypatch: pytest.MonkeyPatch) -> None:

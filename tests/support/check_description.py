@@ -218,6 +218,55 @@ SETTING: dict[str, Callable[[Client], None]] = {
 }
 
 
+POINTS = {
+    "headrace_scene": 1, "name": "points", "dimensions": 2, "model": "thesis", "spacing": 0.1,
+    "domain": {"min": [0, 0], "max": [1, 1]}, "fluids": [{"name": "water", "particles": {"file": "points.csv"}}],
+}
+
+
+def check_refusals(headraced: str, document: dict[str, Any]) -> int:
+    """Whatever a method refuses, in a server without a scene, with one, and on the other socket, it refuses with an error
+    that is listed. Returns how many refusals there were."""
+    listed = {m["name"]: {error["data"]["name"] for error in m["errors"]} for m in document["methods"]}
+    kinds = {error["name"]: error["code"] for error in document["x-errors"]["names"]}
+    refused = 0
+
+    def judge(name: str, error: dict[str, Any]) -> None:
+        kind = error["data"]["name"]
+        expect(kind in listed[name], f"{name} is refused with {kind}, which is not listed for it: {error}")
+        expect(kinds.get(kind) == error["code"], f"{name}: the code of {kind} is not {error['code']}")
+
+    with private_server(headraced, "--threads", "1") as server:
+        client = Client(server)
+        try:
+            for is_loaded in (False, True):
+                if is_loaded:
+                    load(client, "dam_break_2d")
+                for method in document["methods"]:
+                    name = method["name"]
+                    example = {p["name"]: p["value"] for p in method["examples"][0]["params"]}
+                    # What would succeed is not tried, as some of it takes its time.
+                    is_tried = not is_loaded and name not in ("scene.load", "server.shutdown", "job.wait", "events.since")
+                    tries = [({"nonsense": 1}, "control"), ({"nonsense": 1}, "data"), (example, "data")]
+                    for params, socket in tries + ([(example, "control"), ({}, "control")] if is_tried else []):
+                        error = client.ask(name, params, socket).get("error")
+                        if error is None:
+                            continue
+                        refused += 1
+                        judge(name, error)
+            # A reset reads the particles' file anew.
+            file = client.folder / "points.csv"
+            file.write_text("position_x,position_y\n0.1,0.1\n")
+            client.call("scene.load", scene=POINTS)
+            file.write_text("position_x,position_y\n0.1,one\n")
+            judge("sim.reset", client.ask("sim.reset", {})["error"])
+            file.unlink()
+            judge("sim.reset", client.ask("sim.reset", {})["error"])
+        finally:
+            client.close()
+    return refused
+
+
 def check_events(client: Client, document: dict[str, Any]) -> set[str]:
     """All that has happened is listed, as it is listed. Returns the types that came."""
     listed = {event["type"]: event for event in document["x-events"]["types"]}
@@ -281,10 +330,13 @@ def main() -> int:
         check_event_sources(repository, document)
         client.close()
     types = set().union(*(try_example(headraced, method, document) for method in document["methods"]))
+    refusals = check_refusals(headraced, document)
+    expect(refusals > 3 * len(document["methods"]), f"only {refusals} refusals")
     for failure in failures:
         print(failure, file=sys.stderr)
     count = sum(len(method["examples"]) for method in document["methods"])
-    print(f"{len(document['methods'])} methods, {count} examples, {len(types)} types of events: {len(failures)} failures")
+    print(f"{len(document['methods'])} methods, {count} examples, {len(types)} types of events, "
+          f"{refusals} refusals: {len(failures)} failures")
     return 1 if failures else 0
 
 

@@ -132,9 +132,17 @@ def result_lines(schema, parts):
     return [f"Result: {link(name)}."] if name else ["Result:", "", *table(schema, parts)]
 
 
-def method_section(document, method, parts):
+def common_errors(document):
+    """What every method may give, in the document's order."""
     common = set.intersection(*({e["message"] for e in m["errors"]} for m in document["methods"]))
-    own = [f"[`{e['message']}`](#errors)" for e in method["errors"] if e["message"] not in common]
+    return [e["message"] for e in document["methods"][0]["errors"] if e["message"] in common]
+
+
+def method_section(document, method, parts):
+    told = set(common_errors(document))
+    if method["x-socket"] == "control":
+        told.add("wrong_socket")  # told of all of these together
+    own = [f"[`{e['message']}`](#errors)" for e in method["errors"] if e["message"] not in told]
     lines = ["", f"### {method['name']}", "", method["summary"], ""]
     lines += [f"- socket: {method['x-socket']}", f"- states: {states_of(document, method['name'])}"]
     lines += [f"- errors: {', '.join(own)}"] if own else []
@@ -151,7 +159,7 @@ def method_section(document, method, parts):
 
 def reference(document):
     parts = Parts(document)
-    common = [f"`{e['message']}`" for e in document["methods"][0]["errors"]]  # `hello` has no others
+    common = [f"`{name}`" for name in common_errors(document)]
     lines = [HEAD.format(protocol=document["x-protocol"])]
     lines += ["## Methods", "", "| method | |", "|---|---|"]
     lines += [f"| [{m['name']}](#{m['name'].replace('.', '')}) | {m['summary']} |" for m in document["methods"]]

@@ -131,6 +131,12 @@ def parse_chunk_index(content: memoryview) -> ChunkPlace:
     return ChunkPlace(offset, channels.number("H"), start)
 
 
+def parse_metadata(content: memoryview) -> tuple[str, dict[str, str]]:
+    cursor = Cursor(content)
+    name = cursor.text()
+    return name, cursor.map()
+
+
 def summary_of(view: memoryview) -> memoryview | None:
     """The summary section, when footer and CRC are right."""
     footer_at = len(view) - len(MAGIC) - FOOTER_BYTES

@@ -324,7 +324,7 @@ class SimulationOperations(Group, Generic[StreamT, RecordingT]):
     def stream(self, fields: Sequence[str] | None = None, every: int | float | None = None, *, lossless: bool = True,
                until: Until = None, timeout: float | None = None, follow: bool = False, rate: float | None = None,
                precision: str | None = None, window: int | None = None, on_stall: str | None = None,
-               stall_timeout: float | None = None) -> StreamT:
+               stall_timeout: float | None = None, resume: str | None = None, acked: int | None = None) -> StreamT:
         """Frames while the simulation runs, the first one of the present state.
 
         Iteration ends when the run is over and its last frame was read; with `follow` it waits for the next run.
@@ -351,10 +351,16 @@ class SimulationOperations(Group, Generic[StreamT, RecordingT]):
             Lossless only: while the window is full the run waits (default), or the stream fails.
         stall_timeout : float, optional
             Lossless only: how long the run waits [s, wall time], by default 60; then the stream fails.
+        resume : str, optional
+            Go on with the lossless stream of this name (`id` of the stream) whose reader has vanished, with its fields
+            and window. The run waits for a new reader as long as `stall_timeout` says.
+        acked : int, optional
+            The last frame (its `seq`) that the vanished reader has dealt with: the next one comes first. By default the
+            last one that it has acknowledged, which it does when it asks for the next.
 
         Raises
         ------
-        InvalidParams, WrongState, LimitExceeded
+        InvalidParams, WrongState, LimitExceeded, StreamNotFound
             When it is opened.
         Faulted, StreamNotFound, ConnectionFailed, ParseError
             While it is read: see `read` of the stream.
@@ -366,6 +372,13 @@ class SimulationOperations(Group, Generic[StreamT, RecordingT]):
         options = without_none(fields=fields, precision=precision, rate=rate, window=window, on_stall=on_stall,
                                stall_timeout=stall_timeout, every_steps=every if is_count else None,
                                interval=None if is_count else every)
+        if resume is None and acked is not None:
+            raise errors.Usage("which stream is it whose frames have arrived?", path="acked", hint="give resume=its id")
+        if resume is not None:
+            if options or not lossless:
+                raise errors.Usage("a stream that is resumed is as it was opened", path="resume",
+                                   hint=f"leave out {', '.join(options) or 'lossless=False'}")
+            options = without_none(resume=resume, acked=acked)
         target = until_member(until, timeout)
         source = (LosslessSource if lossless else LiveSource)(self._connection, options)
         return self._make_stream(self._connection, source,

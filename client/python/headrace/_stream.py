@@ -23,6 +23,7 @@ class LosslessSource:
 
     def __init__(self, connection: Connection, options: Mapping[str, Any]) -> None:
         self._connection, self._options = connection, options
+        self.id: str | None = None
         self._arrived: deque[Frame] = deque()
         self._seq = self._acked = 0  # of the last frame handed out, and acknowledged
         self._last: int | None = None  # known when the stream is closed
@@ -30,13 +31,14 @@ class LosslessSource:
     def open(self) -> Steps[None]:
         self._channel = self._connection.connect("data")
         opened = yield from self._channel.call("stream.open", {"mode": "lossless", **self._options}, self._keep)
-        self._id: str = opened["stream"]
+        self.id = opened["stream"]
         self._window: int = opened["window"]
+        self._seq = self._acked = int(opened["next_seq"]) - 1  # not 0 where an earlier reader is replaced
 
     def read(self, seconds: float) -> Steps[Frame | None]:
         """The next frame; None when none comes in time."""
         if self._seq > self._acked:
-            self._channel.send("stream.ack", {"stream": self._id, "seq": self._seq}, notify=True)
+            self._channel.send("stream.ack", {"stream": self.id, "seq": self._seq}, notify=True)
             self._acked = self._seq
         if not self._arrived:
             for part in (yield from self._channel.receive(seconds)) or ():
@@ -52,12 +54,12 @@ class LosslessSource:
 
     def check(self) -> Steps[None]:
         """Raises when the stream has failed or the server is gone."""
-        yield from self._channel.call("stream.ack", {"stream": self._id, "seq": self._seq}, self._keep)
+        yield from self._channel.call("stream.ack", {"stream": self.id, "seq": self._seq}, self._keep)
 
     def finish(self) -> Steps[None]:
         """No further frame is captured; those that were can still be read."""
         if self._last is None:
-            closed = yield from self._channel.call("stream.close", {"stream": self._id}, self._keep)
+            closed = yield from self._channel.call("stream.close", {"stream": self.id}, self._keep)
             self._last = int(closed["last_seq"])
 
     def is_drained(self) -> bool:
@@ -67,14 +69,14 @@ class LosslessSource:
         """Lets go of what was captured and not read."""
         yield from self.finish()
         if not self.is_drained() or self._seq > self._acked:
-            yield from self._channel.call("stream.ack", {"stream": self._id, "seq": self._last}, lambda part: None)
+            yield from self._channel.call("stream.ack", {"stream": self.id, "seq": self._last}, lambda part: None)
 
     def abandon(self) -> None:
-        self._channel.send("stream.close", {"stream": self._id}, notify=True)
+        self._channel.send("stream.close", {"stream": self.id}, notify=True)
         # The server drops the stream when its last frame is acknowledged. Which one that is only a reply could tell: the
         # numbers that it can have are few, and those that were not sent are refused without consequence.
         for seq in range(self._acked + 1, self._acked + self._window + 1):
-            self._channel.send("stream.ack", {"stream": self._id, "seq": seq}, notify=True)
+            self._channel.send("stream.ack", {"stream": self.id, "seq": seq}, notify=True)
         self._channel.close(LAST_WORDS)
 
     def close(self) -> None:
@@ -89,14 +91,15 @@ class LiveSource:
 
     def __init__(self, connection: Connection, options: Mapping[str, Any]) -> None:
         self._connection, self._options = connection, options
+        self.id: str | None = None
         self._first: Frame | None = None
         self._finished = False
 
     def open(self) -> Steps[None]:
         opened = yield from self._connection.call("stream.open", {"mode": "live", **self._options})
-        self._id: str = opened["stream"]
+        self.id = str(opened["stream"])
         # The topic ends with its NUL, so that frame/1 is not frame/10 as well.
-        self._channel: Channel = self._connection.connect("frames", self._id.encode() + b"\0")
+        self._channel: Channel = self._connection.connect("frames", self.id.encode() + b"\0")
         # A new subscriber gets a frame at once: when it is here, the subscription is.
         deadline = time.monotonic() + self._connection.patience
         while self._first is None and time.monotonic() < deadline:
@@ -118,7 +121,7 @@ class LiveSource:
     def finish(self) -> Steps[None]:
         if not self._finished:
             self._finished = True
-            yield from self._connection.call("stream.close", {"stream": self._id})
+            yield from self._connection.call("stream.close", {"stream": self.id})
 
     def drop(self) -> Steps[None]:
         yield from self.finish()
@@ -129,7 +132,7 @@ class LiveSource:
     def abandon(self) -> None:
         self._channel.close()
         control = self._connection.connect("control")
-        control.send("stream.close", {"stream": self._id}, notify=True)
+        control.send("stream.close", {"stream": self.id}, notify=True)
         control.close(LAST_WORDS)
 
     def close(self) -> None:
@@ -152,6 +155,11 @@ class StreamOperations:
         self._connection, self._source, self._start, self._follow = connection, source, start, follow
         self._state = "new"  # then open, ending, closed
         self._fault: errors.Error | None = None
+
+    @property
+    def id(self) -> str | None:
+        """The stream's name in the server, with which another client can go on with it; None before it is open."""
+        return self._source.id
 
     def _open(self) -> Steps[None]:
         if self._state == "new":

@@ -17,6 +17,7 @@ from .frame import Frame
 from .probe_series import Floats, ProbeSeries
 
 _FRAMES, _EVENTS, _COMMANDS, _PROBES = 1, 2, 3, 4  # channels
+_SEQ_AT = 40  # in a frame's header: its number within the stream
 
 
 class Recording(Sequence[Frame]):
@@ -37,6 +38,8 @@ class Recording(Sequence[Frame]):
         False: the file was cut off, is damaged at its end, or still growing.
     damaged_bytes : int
         Bytes that were passed over.
+    gaps : int
+        How often frames are missing between two that are there: lost on their way to the file, or torn out by damage.
     session, program, strategy : str
         Of the server that ran the simulation.
 
@@ -66,10 +69,12 @@ class Recording(Sequence[Frame]):
         self._view = memoryview(content)
         if self._view[: len(mcap.MAGIC)] != mcap.MAGIC:
             raise ParseError(f"{self.path} is no recording", path=self.path, hint="recordings are MCAP files")
+        self.damaged_bytes = self.gaps = 0
         summary = mcap.summary_of(self._view)
-        self.is_complete = summary is not None
-        self.damaged_bytes = 0
-        places = list(self._scanned() if summary is None else self._indexed(summary))
+        places = None if summary is None else self._indexed(summary)
+        self.is_complete = places is not None
+        if places is None:
+            places = list(self._scanned())
         self._places = {channel: [place for place in places if place.channel == channel]
                         for channel in (_FRAMES, _EVENTS, _COMMANDS, _PROBES)}
         self.times: Floats = np.array([place.log_time for place in self._places[_FRAMES]], dtype=np.float64) * 1e-9
@@ -155,7 +160,8 @@ class Recording(Sequence[Frame]):
 
     def __repr__(self) -> str:
         span = f", t {self.times[0]:g} to {self.times[-1]:g} s" if len(self) else ""
-        return f"<Recording {self.path}: {len(self):,} frames{span}{'' if self.is_complete else ', incomplete'}>"
+        gaps = f", {self.gaps} gap{'s' if self.gaps > 1 else ''}" if self.gaps else ""
+        return f"<Recording {self.path}: {len(self):,} frames{span}{gaps}{'' if self.is_complete else ', incomplete'}>"
 
     # ---- the file ----
 
@@ -188,22 +194,35 @@ class Recording(Sequence[Frame]):
     def _damage(self, offset: int, what: str) -> ParseError:
         return ParseError(f"{self.path}, byte {offset}: {what}", path=self.path)
 
-    def _indexed(self, summary: memoryview) -> Iterator[mcap.ChunkPlace]:
-        """From the summary, whose CRC is right."""
+    def _indexed(self, summary: memoryview) -> list[mcap.ChunkPlace] | None:
+        """From the summary, whose CRC is right. None: it does not agree with what its writer counted at the end."""
+        places: list[mcap.ChunkPlace] = []
+        end: dict[str, str] = {}
         try:
             for record in mcap.records(summary):
                 if record.kind == mcap.CHUNK_INDEX:
-                    yield mcap.parse_chunk_index(record.content)
+                    places.append(mcap.parse_chunk_index(record.content))
+                elif record.kind == mcap.METADATA_INDEX:
+                    found = mcap.record_at(self._view, mcap.Cursor(record.content).number("Q"))
+                    name, values = mcap.parse_metadata(found.content)
+                    end = values if name == "headrace.end" else end
         except mcap.Malformed as wrong:
             raise self._damage(len(self._view), f"the summary contradicts itself: {wrong}") from None
+        frames = sum(place.channel == _FRAMES for place in places)
+        if end.get("frames") != str(frames) or not end.get("gaps", "").isdecimal():
+            return None
+        self.gaps = int(end["gaps"])
+        return places
 
     def _scanned(self) -> Iterator[mcap.ChunkPlace]:
         """By reading the file through; what makes no sense is passed over up to the next chunk."""
         offset = len(mcap.MAGIC)
+        last_seq: int | None = None  # of the frames
         while offset < len(self._view):
             try:
                 record = mcap.record_at(self._view, offset)
-                if record.kind == mcap.DATA_END:
+                if record.kind == mcap.DATA_END and len(record.content) == 4:
+                    self.damaged_bytes += len(self._view) - offset - record.size  # a summary that is not whole
                     return
                 if record.kind not in (mcap.HEADER, mcap.METADATA, mcap.CHUNK, mcap.MESSAGE_INDEX):
                     raise mcap.Malformed("no record of a recording")
@@ -216,6 +235,10 @@ class Recording(Sequence[Frame]):
             if chunk is not None:
                 try:
                     message = self._unpacked(chunk)
+                    if message.channel == _FRAMES:
+                        seq = int.from_bytes(message.data[_SEQ_AT : _SEQ_AT + 8], "little")
+                        self.gaps += last_seq is not None and seq != last_seq + 1
+                        last_seq = seq
                     yield mcap.ChunkPlace(offset, message.channel, message.log_time)
                 except mcap.Malformed:
                     self.damaged_bytes += record.size
@@ -245,9 +268,7 @@ class Recording(Sequence[Frame]):
             metadata = mcap.record_at(self._view, len(mcap.MAGIC) + header.size)
             if metadata.kind != mcap.METADATA:
                 return {}
-            cursor = mcap.Cursor(metadata.content)
-            cursor.text()
-            return cursor.map()
+            return mcap.parse_metadata(metadata.content)[1]
         except mcap.Malformed:
             return {}
 

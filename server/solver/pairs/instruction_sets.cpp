@@ -11,11 +11,18 @@ void use(std::int64_t targets) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
+// Highway says AVX3 for what everybody calls AVX-512.
+std::string name_of(std::int64_t target) {
+    std::string name = hwy::TargetName(target);
+    if (name.starts_with("AVX3")) name.replace(0, 4, "AVX-512");
+    return name;
+}
+
 }  // namespace
 
 std::vector<std::string> instruction_sets() {
     std::vector<std::string> names;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(name_of(target));
     return names;
 }
 
@@ -25,7 +32,7 @@ std::string instruction_set() {
 
 OnlyInstructionSet::OnlyInstructionSet(const std::string& name) {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        if (hwy::TargetName(target) == name) {
+        if (name_of(target) == name) {
             use(target);
             return;
         }

@@ -1,4 +1,4 @@
-// The instruction sets that the pair loops of this program are compiled for, by Highway's names.
+// The instruction sets that the pair loops of this program are compiled for: "AVX-512", "AVX2", "SSE4", ..., "SCALAR".
 #pragma once
 
 #include <string>

@@ -63,6 +63,15 @@ TEST_CASE("Arguments.FieldsComeFromTheTable") {
     CHECK(slip.error().hint == "did you mean \"velocity\"?");
 }
 
+TEST_CASE("Arguments.ColoursMayBeNamedAsPeopleDo") {
+    for (const char* word : {"velocity", "speed", "|velocity|"})
+        CHECK(*parse_color_field(word) == proto::Field::velocity);
+    CHECK(*parse_color_field("p") == proto::Field::pressure);
+    CHECK(*parse_color_field("rho") == proto::Field::density);
+    CHECK(parse_color_field("presure").error().hint == "did you mean \"pressure\"?");
+    CHECK(parse_color_field("speedy").error().path == "--color-by");
+}
+
 TEST_CASE("Arguments.RangeMayBeOpen") {
     CHECK(parse_range("0:2")->first == 0.0);
     CHECK(parse_range("0:2")->second == 2.0);

@@ -15,6 +15,7 @@ proto::SimStatusReply running() {
     status.state = proto::SimState::running;
     status.scene = "tank";
     status.model = "wcsph";
+    status.dimensions = 2;
     status.step = 1'234;
     status.time = 0.5;
     status.time_step = 0.001;
@@ -42,7 +43,7 @@ TEST_CASE("Dashboard.TellsClockRatesEnergyAndDensityError") {
     dashboard.add(running(), {1'000.0, -0.25});
     const std::string text = text_of(dashboard);
     for (const char* part : {"tank (wcsph)  running  ipc://x", "1,234", "0.5 s", "0.001 s, limit: acoustic", "2,500",
-                             "1.5 m/s", "2 J", "5 J", "-0.25 J", "mean -1 %", "largest 10 %", "q quit"})
+                             "1.5 m/s", "2 J/m", "5 J/m", "-0.25 J/m", "mean -1 %", "largest 10 %", "q quit"})
         CHECK(has(text, part));
 }
 
@@ -56,6 +57,25 @@ TEST_CASE("Dashboard.LeavesOutWhatIsNotKnown") {
     idle.add(empty, {});
     CHECK(has(text_of(idle), "no scene  empty"));
     CHECK_FALSE(has(text_of(idle), "steps/s"));
+}
+
+// A model that could follow its energies has a stage for that in its plan, which is skipped while no probe asks for it.
+TEST_CASE("Dashboard.SaysHowTheEnergyErrorIsToBeHad") {
+    Dashboard dashboard("ipc://x", {});
+    proto::SimStatusReply status = running();
+    status.dimensions = 3;
+    status.plan = {{"continuity", true, "", 0.0}, {"energies", false, "no probe follows them", 0.0}};
+    dashboard.add(status, {});
+    CHECK(has(text_of(dashboard), "2 J   "));
+    CHECK(
+        has(text_of(dashboard), "energy error    not followed, as that makes steps longer: e adds a probe that does"));
+    std::string snapshot;
+    for (const std::string& line : dashboard.lines(100, 100, false)) snapshot += line + "\n";
+    CHECK(has(snapshot, "energy error    not followed: a probe of the kind energies does (headrace help probes)"));
+    status.plan[1].active = true;
+    dashboard.add(status, {1'000.0, 0.5});
+    CHECK(has(text_of(dashboard), "0.5 J "));
+    CHECK_FALSE(has(text_of(dashboard), "not followed"));
 }
 
 TEST_CASE("Dashboard.WarnsOfFaultsStallsAndBadEventsOnly") {

@@ -23,6 +23,12 @@ TEST_CASE("Text.NumbersReadEasily") {
     CHECK(duration_text(1.0 / 0.0) == "?");
 }
 
+TEST_CASE("Text.EnergiesHaveTheUnitOfTheirDimensions") {
+    CHECK(energy_text(1.5, 3) == "1.5 J");
+    CHECK(energy_text(1.5, 2) == "1.5 J/m");
+    CHECK(energy_text(1.5, {}) == "1.5 J (2D: J/m)");
+}
+
 TEST_CASE("Text.ErrorLineNamesErrorPathAndRemedy") {
     using proto::ErrorCode;
     // A suggestion says it all.
@@ -30,6 +36,9 @@ TEST_CASE("Text.ErrorLineNamesErrorPathAndRemedy") {
                       "did you mean \"panel\"?"}) == "error object_not_found (params.name): did you mean \"panel\"?");
     CHECK(error_line({ErrorCode::wrong_state, "no scene is loaded", "", "load one first"}) ==
           "error wrong_state: no scene is loaded; load one first");
+    // A file's name once.
+    CHECK(error_line({ErrorCode::file_error, "a.mcap: not a regular file", "a.mcap", ""}) ==
+          "error file_error (a.mcap): not a regular file");
     CHECK(error_line({ErrorCode::internal_error, "broken", "", ""}) == "error internal_error: broken");
 }
 

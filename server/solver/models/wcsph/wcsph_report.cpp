@@ -139,13 +139,14 @@ std::vector<Stage> Wcsph::plan(const Surroundings& surroundings) const {
     };
     const bool has_walls = !walls_.is_empty();
     const char* const no_walls = "no objects";
+    const std::string sorts = sorts_ == 1 ? "once" : text_of("%llu times", static_cast<unsigned long long>(sorts_));
+    const char* const pairs = separated_ == 1 ? "pair" : "pairs";
     add("neighbours", true,
         strategy() +
-            text_of(
-                "; lists reach %.2g spacings beyond the support, pruned %.2g, and serve while they cover "
-                "all pairs: sorted %llu times so far, %.0f listed a particle; %llu coincident pairs moved apart so far",
-                skin(), inner_skin(), static_cast<unsigned long long>(sorts_), neighbours_->neighbours_per_particle(),
-                static_cast<unsigned long long>(separated_)),
+            text_of("; lists reach %.2g spacings beyond the support, pruned %.2g, and serve while they cover "
+                    "all pairs: sorted %s so far, %.0f listed a particle; %llu coincident %s moved apart so far",
+                    skin(), inner_skin(), sorts.c_str(), neighbours_->neighbours_per_particle(),
+                    static_cast<unsigned long long>(separated_), pairs),
         "", seconds_[kNeighbours]);
     add("geometry", true, "moment matrices, free surface", "", seconds_[kGeometry]);
     add("shifting", has_shifting(), "sums timed with geometry, one loop",
