@@ -1,57 +1,66 @@
 #include "server/team_choice.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace headrace::server {
 namespace {
 
+// Long enough to tell: some time slices of a busy machine, and what is not done in every step.
 constexpr double kWindow = 0.05;  // [s]
 constexpr int kWindowSteps = 10;
-// Trials of a number that turns out to be the slower one get rarer.
+// Before the first trial, and after one that paid. Trials of what turns out to be slower get rarer.
 constexpr double kFirstPause = 0.2, kLongestPause = 20.0;  // [s]
+constexpr double kPauseOverTrial = 10.0;                   // at least
 constexpr double kFaster = 0.9;                            // share of the time, from which a change pays
 constexpr double kWorse = 1.5;                             // something has happened: tries at once
-// Loops of steps as long as this balance what other programs take, and a trial would cost too much.
-constexpr double kLongStep = 0.1;  // [s]
+constexpr double kLongStep = 0.02;                         // [s]
 
 }  // namespace
-
-bool TeamChoice::Window::is_full() const {
-    return steps >= kWindowSteps && seconds >= kWindow;
-}
 
 void TeamChoice::note(double seconds) {
     if (most_ < 2) return;
     window_.seconds += seconds;
     ++window_.steps;
     since_trial_ += seconds;
-    // A trial that is clearly lost need not be seen to its end.
-    const bool is_lost = settled_ != 0 && window_.seconds > 3.0 * kWindowSteps * settled_mean_ + kWindow;
-    if (window_.is_full() || is_lost) {
-        judge(window_);
-        window_ = {};
-    }
+    if (is_trial())
+        judge_trial();
+    else if (window_.steps >= kWindowSteps && window_.seconds >= kWindow)
+        judge_settled();
 }
 
-void TeamChoice::judge(const Window& window) {
-    const double mean = window.mean();
-    if (settled_ != 0) {  // a trial ends
-        const bool pays = mean < kFaster * settled_mean_;
-        if (!pays) threads_ = settled_;
-        pause_ = pays ? kFirstPause : std::min(2.0 * pause_, kLongestPause);
-        settled_ = 0;
-        since_trial_ = 0.0;
-        settled_mean_ = decided_mean_ = pays ? mean : settled_mean_;
-        return;
+// Ends when it cannot pay any more, so that it never takes longer than its steps would have taken anyway.
+void TeamChoice::judge_trial() {
+    const bool is_lost = window_.seconds > kFaster * mean_ * trial_steps_;
+    if (!is_lost && window_.steps < trial_steps_) return;
+    if (is_lost) {
+        threads_ = settled_;
+        pause_ = std::min(2.0 * pause_, kLongestPause);
+    } else {
+        mean_ = window_.seconds / window_.steps;
+        pause_ = kFirstPause;
     }
-    settled_mean_ = mean;
-    if (decided_mean_ == 0.0) decided_mean_ = mean;
-    if (mean > kLongStep) return;
-    if (pause_ == 0.0) pause_ = kFirstPause;
-    if (mean > kWorse * decided_mean_) pause_ = kFirstPause;
+    decided_mean_ = mean_;
+    settled_ = 0;
+    since_trial_ = 0.0;
+    window_ = {};
+}
+
+void TeamChoice::judge_settled() {
+    mean_ = window_.seconds / window_.steps;
+    window_ = {};
+    if (mean_ > kLongStep) return take_all();
+    if (decided_mean_ == 0.0) decided_mean_ = mean_;
+    trial_steps_ = std::max(kWindowSteps, static_cast<int>(std::ceil(kWindow / mean_)));
+    pause_ = mean_ > kWorse * decided_mean_ ? kFirstPause : std::max(pause_, kPauseOverTrial * trial_steps_ * mean_);
     if (since_trial_ < pause_) return;
     settled_ = threads_;
     threads_ = candidate();
+}
+
+void TeamChoice::take_all() {
+    threads_ = most_;
+    decided_mean_ = 0.0;
 }
 
 // Half as many, one and twice as many by turns, where they are others than now. One, since half of many may wait as
