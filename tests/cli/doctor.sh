@@ -39,7 +39,8 @@ for modules in '|' '25.1|1.24'; do
     *) expect 0 '.*ok +Python +/opt/python3 3\.9\.9, pyzmq 25\.1, NumPy 1\.24.*' env PATH="$work/bare" "$headrace" doctor ;;
     esac
 done
-[[ $("$headrace" doctor) =~ folder\ +[^ ]+,\ ([0-9],)?[0-9]+(\.[0-9])?\ GiB\ free ]] || fail "too many digits: $output"
+findings=$("$headrace" doctor)
+[[ $findings =~ folder\ +.+,\ [0-9]{1,3}(,[0-9]{3})*(\.[0-9])?\ GiB\ free ]] || fail "too many digits: $findings"
 
 # Failures, with the exit status of the first.
 expect 3 '.*failure +private server +HEADRACE_SERVER_BINARY is no program.*error connection_failed \(private server\): 1 failure found; .*' \

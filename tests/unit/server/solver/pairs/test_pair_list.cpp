@@ -21,13 +21,10 @@ NeighbourInput input_of(const Points& fluid, const Points* walls = nullptr) {
     return in;
 }
 
-// Pairs of points (centre, neighbour) nearer than `within` that the list leads to, with how often.
-template <class S>
-std::map<std::pair<std::size_t, std::size_t>, int> listed_pairs(const PairList<S>& list,
-                                                                const ClusterPoints<S>& centres,
-                                                                const ClusterPoints<S>& neighbours,
-                                                                double within = kSupport) {
-    std::map<std::pair<std::size_t, std::size_t>, int> pairs;
+// visit(i, j, r2) for all pairs of points that the loops meet, as they see them: relative places and the way's offset.
+template <class S, class Visit>
+void for_each_met(const PairList<S>& list, const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours,
+                  Visit&& visit) {
     for (std::size_t c = 0; c < centres.clusters(); ++c) {
         const PairBlock<S>& block = list.blocks()[c / kMotionBlock];
         for (Index g = block.first_group[c % kMotionBlock]; g < block.first_group[c % kMotionBlock + 1]; ++g) {
@@ -37,18 +34,29 @@ std::map<std::pair<std::size_t, std::size_t>, int> listed_pairs(const PairList<S
                 for (std::size_t k = 0; k < 16; ++k) {
                     const std::size_t i = 4 * c + k / 4, j = 4 * cluster + k % 4;
                     if (i >= centres.size() || j >= neighbours.size()) continue;
-                    // As the loop sees it: relative places and the group's offset.
                     double r2 = 0.0;
                     for (int axis = 0; axis < centres.dimensions(); ++axis) {
                         const double d = centres.record(c)[4 * axis + k / 4] + way.offset[axis] -
                                          neighbours.record(cluster)[4 * axis + k % 4];
                         r2 += d * d;
                     }
-                    if (r2 < within * within) ++pairs[{i, j}];
+                    visit(i, j, r2);
                 }
             }
         }
     }
+}
+
+// Pairs of points (centre, neighbour) nearer than `within` that the list leads to, with how often.
+template <class S>
+std::map<std::pair<std::size_t, std::size_t>, int> listed_pairs(const PairList<S>& list,
+                                                                const ClusterPoints<S>& centres,
+                                                                const ClusterPoints<S>& neighbours,
+                                                                double within = kSupport) {
+    std::map<std::pair<std::size_t, std::size_t>, int> pairs;
+    for_each_met(list, centres, neighbours, [&](std::size_t i, std::size_t j, double r2) {
+        if (r2 < within * within) ++pairs[{i, j}];
+    });
     return pairs;
 }
 
@@ -130,28 +138,13 @@ TEST_CASE("PairList.HasThePairsAcrossPagesOfClusters") {
     neighbours.find(input_of(points));
     REQUIRE(neighbours.fluid().clusters() > kPageClusters);
     std::size_t pairs = 0, wrong = 0, across = 0;
-    for (std::size_t c = 0; c < neighbours.fluid().clusters(); ++c) {
-        const PairBlock<float>& block = neighbours.among_fluid().blocks()[c / kMotionBlock];
-        for (Index g = block.first_group[c % kMotionBlock]; g < block.first_group[c % kMotionBlock + 1]; ++g) {
-            const PairWay<float>& way = block.way(block.groups[g]);
-            for (Index e = block.groups[g].begin; e < block.groups[g].end; ++e) {
-                const std::size_t cluster = way.page + block.entries[e];
-                for (std::size_t k = 0; k < 16; ++k) {
-                    const std::size_t i = 4 * c + k / 4, j = 4 * cluster + k % 4;
-                    double r2 = 0.0;
-                    for (int axis = 0; axis < 2; ++axis) {
-                        const double d = neighbours.fluid().record(c)[4 * axis + k / 4] + way.offset[axis] -
-                                         neighbours.fluid().record(cluster)[4 * axis + k % 4];
-                        r2 += d * d;
-                    }
-                    if (r2 > kWithin * kWithin) continue;
-                    ++pairs;
-                    wrong += std::abs(std::sqrt(r2) - points.distance(i, j)) > 1e-4;
-                    across += page_of(static_cast<Index>(i / 4)) != page_of(static_cast<Index>(j / 4));
-                }
-            }
-        }
-    }
+    const ClusterPoints<float>& fluid = neighbours.fluid();
+    for_each_met(neighbours.among_fluid(), fluid, fluid, [&](std::size_t i, std::size_t j, double r2) {
+        if (r2 > kWithin * kWithin) return;
+        ++pairs;
+        wrong += std::abs(std::sqrt(r2) - points.distance(i, j)) > 1e-4;
+        across += page_of(static_cast<Index>(i / 4)) != page_of(static_cast<Index>(j / 4));
+    });
     std::size_t expected = 0;
     for (int y = -2; y <= 2; ++y) {
         for (int x = -2; x <= 2; ++x) expected += std::size_t(kEdge - std::abs(x)) * std::size_t(kEdge - std::abs(y));

@@ -45,10 +45,13 @@ struct Bench {
     WallParticles walls;
     WallState wall_state;
     ClusterOrder order, wall_order;
+    std::size_t stride{1};  // one of so many points is checked
 
-    explicit Bench(unsigned seed) {
+    // times: in 2D, as often in each direction.
+    explicit Bench(unsigned seed, std::size_t times = 1) {
         Uniform uniform(seed);
-        const std::size_t n = D == 2 ? 150 : 260, m = D == 2 ? 60 : 90;
+        const std::size_t n = D == 2 ? 150 * times * times : 260, m = D == 2 ? 60 * times * times : 90;
+        for (int k = 0; k < D; ++k) domain.max[k] *= static_cast<double>(times);
         particles.dimensions = walls.dimensions = D;
         particles.resize(n);
         walls.id.resize(m);
@@ -172,7 +175,7 @@ void check_geometry(Bench<D> bench, WcsphSums& sums) {
     options.rho0_c2 = 50.0;
     sums.geometry(bench.data(), options);
     const double scale = largest_of(bench.state.grad_delta);
-    for (std::size_t i = 0; i < bench.particles.size(); ++i) {
+    for (std::size_t i = 0; i < bench.particles.size(); i += bench.stride) {
         Symmetric<D> M;
         std::array<double, D> normal{}, grad_delta{};
         std::array<std::array<double, D>, D> grad_v{};
@@ -222,7 +225,7 @@ void check_continuity(Bench<D> bench, WcsphSums& sums, DensityDiffusion form) {
     if (form == DensityDiffusion::fourtakas) options.g_over_c2 = {0.1, -0.5, 0.2};
     sums.continuity(bench.data(), form, options);
     const double scale = *std::max_element(bench.state.delta_rate.begin(), bench.state.delta_rate.end());
-    for (std::size_t i = 0; i < bench.particles.size(); ++i) {
+    for (std::size_t i = 0; i < bench.particles.size(); i += bench.stride) {
         const Symmetric<D> B = matrix_at<D>(bench.state.B, i);
         double divergence = 0.0, diffusion = 0.0;
         const auto add = [&](const Pair<D, double>& pair, const VectorField& v, Index j) {
@@ -261,7 +264,7 @@ void check_pressure(Bench<D> bench, WcsphSums& sums, bool is_adjoint, double alp
     const WcsphView view = bench.view();
     const PairTerms<D> terms(view, options);
     const double scale = largest_of(bench.particles.a);
-    for (std::size_t i = 0; i < bench.particles.size(); ++i) {
+    for (std::size_t i = 0; i < bench.particles.size(); i += bench.stride) {
         std::array<double, D> a = vector_at<D>(bench.state.a_slow, i);
         const auto at = static_cast<Index>(i);
         bench.for_each_fluid(bench.x(i), [&](Index j, const Pair<D, double>& pair) {
@@ -286,7 +289,7 @@ void check_viscosity(Bench<D> bench, WcsphSums& sums, bool is_morris) {
     const WcsphView view = bench.view();
     const PairTerms<D> terms(view, options);
     const double scale = largest_of(bench.state.a_slow);
-    for (std::size_t i = 0; i < bench.particles.size(); ++i) {
+    for (std::size_t i = 0; i < bench.particles.size(); i += bench.stride) {
         std::array<double, D> a = vector_at<D>(before, i);
         const auto at = static_cast<Index>(i);
         bench.for_each_fluid(bench.x(i), [&](Index j, const Pair<D, double>& pair) {
@@ -303,7 +306,7 @@ template <int D>
 void check_wall_pressure(Bench<D> bench, WcsphSums& sums, double least) {
     sums.wall_pressure(bench.data(), {least, {}});
     std::size_t clamped = 0;
-    for (std::size_t w = 0; w < bench.walls.size(); ++w) {
+    for (std::size_t w = 0; w < bench.walls.size(); w += bench.stride) {
         double W = 0.0, p = 0.0;
         bench.for_each_fluid(vector_at<D>(bench.walls.x, w), [&](Index j, const Pair<D, double>& pair) {
             const double weight = pair.V_j * sums.W(pair.r);
@@ -356,4 +359,30 @@ TEST_CASE("WcsphSums.OtherKernelsPassTheSameLoop") {
     check_all<2>(KernelKind::quintic_spline);
     check_all<3>(KernelKind::wendland_c4);
     check_all<2>(KernelKind::cubic_spline);
+}
+
+TEST_CASE("WcsphSums.AreWholeAcrossPagesOfClusters") {
+    // More clusters than an entry of a list has numbers for.
+    Bench<2> bench(23, 43);
+    bench.stride = 1511;
+    tolerance = kSingle;
+    const auto neighbours = make_pair_neighbours(Arithmetic::single_precision);
+    bench.find(*neighbours);
+    REQUIRE(bench.order.clusters() > kPageClusters);
+    const std::unique_ptr<WcsphSums> sums = make_wcsph_sums({2, KernelKind::wendland_c2, kSupport}, *neighbours);
+    check_continuity<2>(bench, *sums, DensityDiffusion::antuono);
+    check_wall_pressure<2>(bench, *sums, 0.0);
+    std::vector<std::vector<Index>> fluid_of(bench.walls.size());
+    neighbours->for_each_wall_pair([&](Index wall, Index fluid) {
+        if (wall % bench.stride == 0) fluid_of[wall].push_back(fluid);  // one thread has all of a wall's
+    });
+    std::size_t missing = 0, behind = 0;
+    for (std::size_t w = 0; w < bench.walls.size(); w += bench.stride) {
+        bench.for_each_fluid(vector_at<2>(bench.walls.x, w), [&](Index j, const Pair<2, double>&) {
+            missing += std::find(fluid_of[w].begin(), fluid_of[w].end(), j) == fluid_of[w].end();
+            behind += page_of(j / kClusterSize) != 0;
+        });
+    }
+    CHECK(missing == 0);
+    CHECK(behind > 0);
 }
