@@ -20,7 +20,7 @@ struct Lanes {
     using Vector [[gnu::vector_size(sizeof(S) * N)]] = S;
     static constexpr std::size_t kCount = N;
 
-    Vector v{};
+    Vector v;  // not set by itself: fields that are loaded one by one would be cleared first
 
     Lanes() = default;
     HEADRACE_ALWAYS_INLINE Lanes(const Vector& vector) : v(vector) {}

@@ -67,7 +67,8 @@ void permute_plain_fluid(PlainFluid& fluid, const Order& order) {
 template <int D>
 struct PlainPass {
     static constexpr bool kReadsWalls = false, kIsOfWalls = false;
-    static constexpr std::size_t kFluidFields = D + 1, kCentreFields = D + 1, kWallFields = 0;  // v, delta
+    static constexpr std::size_t kFluidFields = D + 1, kWallFields = 0;  // v, delta
+    static constexpr std::size_t kFirstOwn = 0, kOwnFields = D + 1, kCentreFields = 0;
     static constexpr double kAlpha = 0.02;  // of the artificial viscosity
 
     explicit PlainPass(PlainFluid& of) : kernel(of.support), support_over_c(of.support / of.sound_speed), fluid(of) {}
@@ -82,8 +83,10 @@ struct PlainPass {
         T divergence{}, diffusion{};
     };
 
-    std::array<const float*, kCentreFields> centre_fields() const {
-        std::array<const float*, kCentreFields> fields;
+    std::array<const float*, 0> centre_fields() const { return {}; }
+    // For strategies that do not pack fields.
+    std::array<const float*, kOwnFields> own_fields() const {
+        std::array<const float*, kOwnFields> fields;
         for (int k = 0; k < D; ++k) fields[k] = fluid.v[k].data();
         fields[D] = fluid.delta.data();
         return fields;

@@ -146,7 +146,7 @@ HWY_NOINLINE void sum_cell_buffered(const PlainPass<D>& pass, const CandidateBuf
     using T = PairLanes<float>;
     using PointSums = typename PlainPass<D>::template Sums<double>;
     constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double);
-    const auto fields = pass.centre_fields();
+    const auto fields = pass.own_fields();
     for (Index i = begin; i < end; ++i) {
         std::array<T, D> x_i;
         for (int k = 0; k < D; ++k) x_i[k] = T(pass.fluid.x[k][i] - candidates.origin(k));
@@ -179,7 +179,7 @@ HWY_NOINLINE void sum_cell_broadcast(const PlainPass<D>& pass, const CandidateBu
     using T = PairLanes<float>;
     using PointSums = typename PlainPass<D>::template Sums<double>;
     constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double), N = T::kCount;
-    const auto fields = pass.centre_fields();
+    const auto fields = pass.own_fields();
     for (Index first = begin; first < end; first += N) {
         const std::size_t points = std::min<std::size_t>(N, end - first);
         alignas(64) float own[2 * D + 1][N] = {};  // those beyond the last point are not stored

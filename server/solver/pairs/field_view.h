@@ -72,35 +72,6 @@ class FieldView {
     double factor_{};
 };
 
-// Fields of centres, the first ones in double precision, the others in single: fields[f][i]. Which, the compiler knows.
-template <std::size_t Wide, std::size_t Narrow>
-class CentreFields {
-  public:
-    struct Field {
-        const double* wide;
-        const float* narrow;
-        double operator[](std::size_t i) const { return wide != nullptr ? wide[i] : static_cast<double>(narrow[i]); }
-    };
-
-    template <std::size_t Count>
-    void set(std::size_t first, const std::array<std::vector<double>, Count>& components, std::size_t count) {
-        for (std::size_t k = 0; k < count; ++k) wide_[first + k] = components[k].data();
-    }
-    template <std::size_t Count>
-    void set(std::size_t first, const std::array<std::vector<float>, Count>& components, std::size_t count) {
-        for (std::size_t k = 0; k < count; ++k) narrow_[first + k - Wide] = components[k].data();
-    }
-    void set(std::size_t at, const std::vector<double>& values) { wide_[at] = values.data(); }
-
-    Field operator[](std::size_t f) const {
-        return f < Wide ? Field{wide_[f], nullptr} : Field{nullptr, narrow_[f - Wide]};
-    }
-
-  private:
-    std::array<const double*, Wide> wide_{};
-    std::array<const float*, Narrow> narrow_{};
-};
-
 // 0 everywhere where nothing is stored.
 template <class T>
 FieldView view_or_zero(const std::vector<T>& values) {

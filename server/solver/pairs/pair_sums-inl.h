@@ -8,9 +8,10 @@
 // A Pass has
 //   kReadsWalls                     whether it sums over wall particles, too
 //   kIsOfWalls                      whether its centres are wall particles, most of which may have no neighbours
-//   kCentreFields, centre_fields()  arrays of the centres that pair() reads
-//   kFluidFields, fluid_fields()    arrays of the fluid that pair() reads of a neighbour, beside x and V
+//   kFluidFields, fluid_fields()    what pair() reads of a neighbour in the fluid, beside x and V
 //   kWallFields, wall_fields()      the same of the walls
+//   kFirstOwn, kOwnFields           which of the fluid's it reads of the centre, too: so many from that one on
+//   kCentreFields, centre_fields()  what it reads of the centre alone, arrays in single precision; behind those
 //   Sums<T>                         accumulators, made of T alone, starting at 0
 //   pair<IsWall>(self, pair, neighbour, sums)   self(f), neighbour(f): field f, a T each
 //   store(i, sums)                  what becomes of the sums of centre i
@@ -101,7 +102,7 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
     constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double);
     static_assert(sizeof(LaneSums) == kSums * sizeof(T), "Sums has members of its number type only");
 
-    const auto centre_fields = pass.centre_fields();
+    [[maybe_unused]] const auto centre_fields = pass.centre_fields();
     const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
     for (std::size_t c = first; c < last; ++c) {
         const std::size_t begin = c * kClusterSize, points = std::min(kClusterSize, centres.size() - begin);
@@ -113,20 +114,19 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
         for (std::size_t part = 0; part < points; part += kAtOnce) {
             std::array<T, D> x_i;
             for (int k = 0; k < D; ++k) x_i[k] = spread_four<S>(centres.record(c) + 4 * k + part);
-            FieldsOf<T, Pass::kCentreFields> self;
+            FieldsOf<T, Pass::kOwnFields + Pass::kCentreFields> self;
+            for (std::size_t f = 0; f < Pass::kOwnFields; ++f) {
+                const std::size_t field = c * Pass::kFluidFields + Pass::kFirstOwn + f;
+                self.field[f] = spread_four<S>(fluid.fields + 4 * field + part);
+            }
             for (std::size_t f = 0; f < Pass::kCentreFields; ++f) {
-                const auto field = centre_fields[f];
+                std::array<float, kClusterSize> four{};
+                const float* own = centre_fields[f] + begin;
                 if (points < kClusterSize) {
-                    std::array<double, kClusterSize> four{};
-                    for (std::size_t l = 0; l < points; ++l) four[l] = static_cast<double>(field[begin + l]);
-                    self.field[f] = spread_four<S>(&four[part]);
-                } else if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(field)>>) {
-                    self.field[f] = spread_four<S>(field + begin + part);
-                } else if (field.wide != nullptr) {
-                    self.field[f] = spread_four<S>(field.wide + begin + part);
-                } else {
-                    self.field[f] = spread_four<S>(field.narrow + begin + part);
+                    std::copy_n(own, points, four.begin());
+                    own = four.data();
                 }
+                self.field[Pass::kOwnFields + f] = spread_four<S>(own + part);
             }
             LaneSums sums{};
             if (block.seen.empty())

@@ -33,7 +33,7 @@ template <int D>
 Tolerance judge(PlainFluid& fluid) {
     using Pass = bench::PlainPass<D>;
     const Pass pass(fluid);
-    const auto fields = pass.centre_fields();
+    const auto fields = pass.own_fields();
     double most = 0.0, weight = 0.0, v = 0.0, V = 0.0, delta = 0.0;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         typename Pass::template Sums<double> sums;

@@ -107,7 +107,8 @@ struct GeometryOptions {
 template <int D, class Kernel, bool HasGradients>
 struct GeometryPass {
     static constexpr bool kReadsWalls = true, kIsOfWalls = false;
-    static constexpr std::size_t kFluidFields = HasGradients ? 1 + D : 1, kCentreFields = kFluidFields;  // delta, v
+    static constexpr std::size_t kFluidFields = HasGradients ? 1 + D : 1;  // delta, v
+    static constexpr std::size_t kFirstOwn = 0, kOwnFields = kFluidFields, kCentreFields = 0;
     static constexpr std::size_t kWallFields = HasGradients ? 2 + 2 * D : 1;  // delta, v, n, no_slip
 
     Kernel kernel;
@@ -122,12 +123,7 @@ struct GeometryPass {
         std::array<std::array<T, D>, D> grad_v{};
     };
 
-    CentreFields<kCentreFields, 0> centre_fields() const {
-        CentreFields<kCentreFields, 0> fields;
-        fields.set(0, data.state.delta);
-        if constexpr (HasGradients) fields.set(1, data.particles.v, D);
-        return fields;
-    }
+    std::array<const float*, 0> centre_fields() const { return {}; }
     std::array<FieldView, kFluidFields> fluid_fields() const {
         std::array<FieldView, kFluidFields> fields;
         fields[0] = data.state.delta;
@@ -244,7 +240,8 @@ struct ContinuityPass {
     static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kFluidFields = D + (kIsDiffusive ? 1 : 0) + (kIsAntuono ? D : 0);
     static constexpr std::size_t kWallFields = D;
-    static constexpr std::size_t kCentreFields = kFluidFields + symmetric_size(D);  // the fluid's, and B
+    static constexpr std::size_t kFirstOwn = 0, kOwnFields = kFluidFields;
+    static constexpr std::size_t kCentreFields = symmetric_size(D);  // B
 
     Kernel kernel;
     PassData data;
@@ -255,13 +252,9 @@ struct ContinuityPass {
         T divergence{}, diffusion{};
     };
 
-    auto centre_fields() const {
-        constexpr std::size_t kWide = D + (kIsDiffusive ? 1 : 0);
-        CentreFields<kWide, kCentreFields - kWide> fields;
-        fields.set(0, data.particles.v, D);
-        if constexpr (kIsDiffusive) fields.set(D, data.state.delta);
-        if constexpr (kIsAntuono) fields.set(kWide, data.state.grad_delta, D);
-        fields.set(kFluidFields, data.state.B, symmetric_size(D));
+    std::array<const float*, kCentreFields> centre_fields() const {
+        std::array<const float*, kCentreFields> fields;
+        for (std::size_t k = 0; k < kCentreFields; ++k) fields[k] = data.state.B[k].data();
         return fields;
     }
     std::array<FieldView, kFluidFields> fluid_fields() const {
@@ -327,7 +320,8 @@ struct PressurePass {
     static constexpr std::size_t kPressureFields = IsAdjoint ? symmetric_size(D) : 1;
     static constexpr std::size_t kFluidFields = kPressureFields + (HasAlpha ? D + symmetric_size(D) : 0);
     static constexpr std::size_t kWallFields = 1;
-    static constexpr std::size_t kCentreFields = kFluidFields - kPressureFields;  // v, strain
+    static constexpr std::size_t kFirstOwn = kPressureFields, kOwnFields = kFluidFields - kPressureFields;  // v, strain
+    static constexpr std::size_t kCentreFields = 0;
 
     Kernel kernel;
     PassData data;
@@ -341,15 +335,7 @@ struct PressurePass {
         std::array<T, IsAdjoint ? 1 : D> artificial{};
     };
 
-    auto centre_fields() const {
-        constexpr std::size_t kWide = HasAlpha ? D : 0;
-        CentreFields<kWide, kCentreFields - kWide> fields;
-        if constexpr (HasAlpha) {
-            fields.set(0, data.particles.v, D);
-            fields.set(D, data.state.strain, symmetric_size(D));
-        }
-        return fields;
-    }
+    std::array<const float*, 0> centre_fields() const { return {}; }
     std::array<FieldView, kFluidFields> fluid_fields() const {
         std::array<FieldView, kFluidFields> fields;
         if constexpr (IsAdjoint) {
@@ -444,8 +430,9 @@ template <int D, class Kernel, bool IsMorris>
 struct ViscosityPass {
     static constexpr bool kReadsWalls = true, kIsOfWalls = false;
     static constexpr std::size_t kMatrix = symmetric_size(D);
-    static constexpr std::size_t kFluidFields = D + kMatrix, kCentreFields = kFluidFields;  // v, B
-    static constexpr std::size_t kWallFields = 2 * D + 2;                                   // v, n, depth, no_slip
+    static constexpr std::size_t kFluidFields = D + kMatrix;  // v, B
+    static constexpr std::size_t kFirstOwn = 0, kOwnFields = kFluidFields, kCentreFields = 0;
+    static constexpr std::size_t kWallFields = 2 * D + 2;  // v, n, depth, no_slip
 
     Kernel kernel;
     PassData data;
@@ -456,12 +443,7 @@ struct ViscosityPass {
         std::array<T, D> a{};
     };
 
-    CentreFields<D, kMatrix> centre_fields() const {
-        CentreFields<D, kMatrix> fields;
-        fields.set(0, data.particles.v, D);
-        fields.set(D, data.state.B, kMatrix);
-        return fields;
-    }
+    std::array<const float*, 0> centre_fields() const { return {}; }
     std::array<FieldView, kFluidFields> fluid_fields() const {
         std::array<FieldView, kFluidFields> fields;
         for (int k = 0; k < D; ++k) fields[k] = data.particles.v[k];
@@ -525,7 +507,7 @@ template <int D, class Kernel>
 struct WallPressurePass {
     static constexpr bool kReadsWalls = false, kIsOfWalls = true;
     static constexpr std::size_t kFluidFields = 2;  // p, rho
-    static constexpr std::size_t kWallFields = 0, kCentreFields = 0;
+    static constexpr std::size_t kWallFields = 0, kFirstOwn = 0, kOwnFields = 0, kCentreFields = 0;
 
     Kernel kernel;
     PassData data;
@@ -537,7 +519,7 @@ struct WallPressurePass {
         std::array<T, D> rho_x_W{};
     };
 
-    CentreFields<0, 0> centre_fields() const { return {}; }
+    std::array<const float*, 0> centre_fields() const { return {}; }
     std::array<FieldView, kFluidFields> fluid_fields() const { return {data.particles.p, data.particles.rho}; }
     std::array<FieldView, kWallFields> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>

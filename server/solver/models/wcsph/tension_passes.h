@@ -18,7 +18,7 @@ struct TensionOptions {
 template <int D, class Kernel>
 struct SurfaceStressPass {
     static constexpr bool kReadsWalls = true, kIsOfWalls = false;
-    static constexpr std::size_t kCentreFields = 0, kFluidFields = 0, kWallFields = 0;
+    static constexpr std::size_t kFirstOwn = 0, kOwnFields = 0, kCentreFields = 0, kFluidFields = 0, kWallFields = 0;
 
     Kernel kernel;
     PassData data;
@@ -30,7 +30,7 @@ struct SurfaceStressPass {
         T c{};
     };
 
-    CentreFields<0, 0> centre_fields() const { return {}; }
+    std::array<const float*, 0> centre_fields() const { return {}; }
     std::array<FieldView, 0> fluid_fields() const { return {}; }
     std::array<FieldView, 0> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>
@@ -48,7 +48,8 @@ struct SurfaceStressPass {
 template <int D>
 struct ContinuumTensionPass {
     static constexpr bool kReadsWalls = true, kIsOfWalls = false;
-    static constexpr std::size_t kCentreFields = 0, kFluidFields = symmetric_size(D), kWallFields = 0;
+    static constexpr std::size_t kFirstOwn = 0, kOwnFields = 0, kCentreFields = 0, kFluidFields = symmetric_size(D),
+                                 kWallFields = 0;
 
     TensionKernel<D> kernel;
     PassData data;
@@ -59,7 +60,7 @@ struct ContinuumTensionPass {
         std::array<T, D> grad_1{}, S_grad{};
     };
 
-    CentreFields<0, 0> centre_fields() const { return {}; }
+    std::array<const float*, 0> centre_fields() const { return {}; }
     std::array<FieldView, kFluidFields> fluid_fields() const {
         std::array<FieldView, kFluidFields> fields;
         for (std::size_t k = 0; k < kFluidFields; ++k) fields[k] = data.state.surface_stress[k];
@@ -90,7 +91,7 @@ struct ContinuumTensionPass {
 template <int D, class Kernel>
 struct ThesisTensionPass {
     static constexpr bool kReadsWalls = true, kIsOfWalls = false;
-    static constexpr std::size_t kCentreFields = 0, kFluidFields = 0, kWallFields = 0;
+    static constexpr std::size_t kFirstOwn = 0, kOwnFields = 0, kCentreFields = 0, kFluidFields = 0, kWallFields = 0;
 
     Kernel kernel;
     PassData data;
@@ -102,7 +103,7 @@ struct ThesisTensionPass {
         T laplacian_c{};
     };
 
-    CentreFields<0, 0> centre_fields() const { return {}; }
+    std::array<const float*, 0> centre_fields() const { return {}; }
     std::array<FieldView, 0> fluid_fields() const { return {}; }
     std::array<FieldView, 0> wall_fields() const { return {}; }
     template <bool IsWall, class T, class Self, class Neighbour>

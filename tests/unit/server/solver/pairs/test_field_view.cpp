@@ -37,18 +37,3 @@ TEST_CASE("FieldView.WhatIsNotStoredIsZero") {
     CHECK(view_or_zero(std::vector<float>{})[3] == 0.0);
     CHECK(view_or_zero(kWide)[3] == 0.7);
 }
-
-TEST_CASE("CentreFields.FindFieldsOfBothPrecisions") {
-    CentreFields<3, 1> fields;
-    const std::array stored{kWide, kDivisor};
-    const std::array narrow{kNarrow};
-    fields.set(0, stored, 2);
-    fields.set(2, kDivisor);
-    fields.set(3, narrow, 1);
-    for (std::size_t i = 0; i < kWide.size(); ++i) {
-        CHECK(fields[2][i] == kDivisor[i]);
-        CHECK(fields[0][i] == kWide[i]);
-        CHECK(fields[1][i] == kDivisor[i]);
-        CHECK(fields[3][i] == static_cast<double>(kNarrow[i]));
-    }
-}
