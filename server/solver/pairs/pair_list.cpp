@@ -14,6 +14,9 @@ namespace {
 // not exceed it.
 constexpr double kFarSkins = 3.0;
 
+// Pruning is due when one of so many blocks sees all of its entries.
+constexpr std::size_t kMostWhole = 8;
+
 // Relative places are rounded: the reach is longer by this share.
 constexpr double kRounding = 4e-6;
 
@@ -147,6 +150,7 @@ void PairList<S>::Scratch::finish_block(PairBlock<S>& block, bool needs_visibili
     block.groups.assign(groups.begin(), groups.end());
     block.ways.assign(ways.begin(), ways.end());
     block.entries.assign(entries.begin(), entries.end());
+    block.is_whole = true;
     block.seen.clear();
     if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
 }
@@ -274,6 +278,7 @@ void PairList<S>::prune(const ClusterPoints<S>& centres, const ClusterPoints<S>&
         Scratch& scratch = scratch_[static_cast<std::size_t>(thread)];
         for (std::size_t b = begin; b < end; ++b) {
             PairBlock<S>& block = blocks_[b];
+            block.is_whole = false;
             if (block.entries.empty()) continue;
             scratch.far.resize(std::max(scratch.far.size(), block.entries.size()));
             scratch.far_seen.resize(scratch.far.size());
@@ -300,7 +305,7 @@ void PairList<S>::prune(const ClusterPoints<S>& centres, const ClusterPoints<S>&
 }
 
 template <class S>
-Coverage PairList<S>::coverage(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const {
+Coverage PairList<S>::cover(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) {
     if (centres.motion().empty() || neighbours.motion().empty()) return Coverage::whole;
     RelativeMotion total(centres.total_motion(), neighbours.total_motion(), neighbours.moves());
     if (!(total.largest2() <= (skin_ + far_skin_) * (skin_ + far_skin_))) return Coverage::lost;
@@ -310,19 +315,43 @@ Coverage PairList<S>::coverage(const ClusterPoints<S>& centres, const ClusterPoi
         return Coverage::whole;
     total.measure_radii();
     recent.measure_radii();
-    return parallel_reduce(
-        blocks_.size(), Coverage::whole,
+    struct Found {
+        bool is_lost{};
+        std::size_t whole_blocks{};
+    };
+    const Found found = parallel_reduce(
+        blocks_.size(), Found{},
         [&](std::size_t first, std::size_t last) {
-            Coverage coverage = Coverage::whole;
+            Found here;
             for (std::size_t b = first; b < last; ++b) {
-                for (const Index j : blocks_[b].nearby) {
-                    if (total.is_longer(b, j, skin_)) return Coverage::lost;
-                    if (coverage == Coverage::whole && recent.is_longer(b, j, inner_skin_)) coverage = Coverage::listed;
+                PairBlock<S>& block = blocks_[b];
+                for (const Index j : block.nearby) {
+                    if (total.is_longer(b, j, skin_)) {
+                        here.is_lost = true;
+                        return here;
+                    }
+                    if (!block.is_whole && recent.is_longer(b, j, inner_skin_)) block.bring_back();
                 }
+                here.whole_blocks += block.is_whole;
             }
-            return coverage;
+            return here;
         },
-        [](Coverage a, Coverage b) { return std::min(a, b); });
+        [](Found a, const Found& b) {
+            return Found{a.is_lost || b.is_lost, a.whole_blocks + b.whole_blocks};
+        });
+    if (found.is_lost) return Coverage::lost;
+    const bool is_loose = inner_skin_ < skin_ && found.whole_blocks * kMostWhole > blocks_.size();
+    return is_loose ? Coverage::loose : Coverage::whole;
+}
+
+template <class S>
+void PairList<S>::bring_back() {
+    for (PairBlock<S>& block : blocks_) block.bring_back();
+}
+
+template <class S>
+bool PairList<S>::is_pruned() const {
+    return std::none_of(blocks_.begin(), blocks_.end(), [](const PairBlock<S>& block) { return block.is_whole; });
 }
 
 template <class S>

@@ -1,10 +1,10 @@
 // Who is near whom: for every cluster of centres the clusters that have a point within reach of one of its points.
 //
-// Exact and reused: the reach is the support and a skin, and coverage() tells from actual displacements whether a pair
+// Exact and reused: the reach is the support and a skin, and cover() tells from actual displacements whether a pair
 // within the support could be missing. Displacements are compared block against block, so a body of fluid that is
 // carried along does not wear the list out; only relative motion does. In between the list is pruned: the loops see
-// those entries only that a smaller skin reaches, as far as displacements since then allow (the inner and outer list of
-// Pall et al. 2020, J. Chem. Phys. 153, 134110).
+// those entries only that a smaller skin reaches (the inner and outer list of Pall et al. 2020, J. Chem. Phys. 153,
+// 134110). Blocks that have moved further than it allows see all entries again until the next pruning.
 #pragma once
 
 #include <array>
@@ -28,6 +28,12 @@ struct PairBlock {
     std::vector<PairEntry> entries;
     std::vector<std::uint16_t> seen;  // of each entry: bit 4 i + j: may they interact? Empty: all may.
     std::vector<Index> nearby;        // blocks of neighbours that could come within reach
+    bool is_whole{true};              // do the loops see all entries?
+
+    void bring_back() {
+        for (Index g = 0; g + 1 < groups.size(); ++g) groups[g].end = listed_end(g);
+        is_whole = true;
+    }
 
     const PairWay<S>& way(const PairGroup& group) const { return ways[group.way]; }
     // Where the group's entries end, those included that were pruned away.
@@ -59,10 +65,10 @@ struct ReachOptions {
     const PairVisibility* visibility{};  // null: all pairs may interact
 };
 
-// Are all pairs within the support in the list, after the motion since it was made?
+// Do the loops see all pairs within the support, after the motion since the list was made?
 enum class Coverage {
-    lost,    // one may be missing: build() is due
-    listed,  // yes, but maybe among those that were pruned away: prune() is due
+    lost,   // one may be missing: build() is due
+    loose,  // yes, and so many others that prune() is due
     whole,
 };
 
@@ -80,7 +86,10 @@ class PairList {
     // The same pairs with centres and neighbours exchanged.
     void build_transposed(const PairList& list, std::size_t centre_clusters);
 
-    Coverage coverage(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours) const;
+    // Gives blocks their entries back whose pruned ones may be needed.
+    Coverage cover(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours);
+    void bring_back();
+    bool is_pruned() const;  // all of it
 
     // Asks again which pairs may interact.
     void refresh(const PairVisibility& visibility, std::size_t centres, std::size_t neighbours);

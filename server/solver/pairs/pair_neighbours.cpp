@@ -40,13 +40,16 @@ void PairNeighboursOf<S>::prune() {
     wall_to_fluid_.prune(walls_, fluid_);
 }
 
-// Prunes where that makes the lists whole; false where only find() does.
+// Brings pruned pairs back and prunes anew as it pays; false where only find() makes the lists whole.
 template <class S>
 bool PairNeighboursOf<S>::keep_whole() {
-    Coverage coverage = among_fluid_.coverage(fluid_, fluid_);
-    if (has_walls() && coverage != Coverage::lost)
-        coverage = std::min(coverage, fluid_to_wall_.coverage(fluid_, walls_));
-    if (coverage == Coverage::listed) prune();
+    Coverage coverage = among_fluid_.cover(fluid_, fluid_);
+    if (has_walls() && coverage != Coverage::lost) {
+        coverage = std::min(coverage, fluid_to_wall_.cover(fluid_, walls_));
+        // The same pairs: motion is compared from the fluid's side only.
+        if (!fluid_to_wall_.is_pruned() && wall_to_fluid_.is_pruned()) wall_to_fluid_.bring_back();
+    }
+    if (coverage == Coverage::loose) prune();
     return coverage != Coverage::lost;
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("PairList.HasThePairsOfClustersAsWideAsTheScene") {
 }
 
 TEST_CASE("PairList.MissesNoPairAsLongAsItSaysSo") {
-    // A carried, turning and shaken body: lists are kept until coverage() gives them up.
+    // A carried, turning and shaken body: lists are kept until cover() gives them up.
     const int dimensions = GENERATE(2, 3);
     const std::string kind = GENERATE("body", "periods");
     Points points = make_body(kind, dimensions);
