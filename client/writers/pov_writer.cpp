@@ -5,7 +5,9 @@
 
 #include "client/writers/file_output.h"
 #include "client/writers/formats.h"
+#include "client/writers/pov_objects.h"
 #include "client/writers/pov_scene.h"
+#include "client/writers/pov_text.h"
 #include "client/writers/scene_view.h"
 #include "client/writers/stage.h"
 
@@ -19,8 +21,8 @@ class PovWriter final : public Writer {
         : options_(options),
           colors_(make_color_scale(options.scene, options.picture)),
           stage_(make_stage(options.scene, options.picture.view, options.extents)),
-          camera_(make_camera(options.scene, stage_, options.picture.view, {0, 0, 1, 1})),
-          head_(pov_head(options, stage_, colors_)) {}
+          camera_(make_pov_camera(options, stage_)),
+          head_(pov_head(options, stage_, camera_, colors_)) {}
 
     proto::Result<InOrder> prepare(const FrameTask& task) override {
         const proto::FrameView& frame = task.frame;

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "client/writers/boxes.h"
 #include "client/writers/palette.h"
 #include "client/writers/placed_object.h"
 #include "proto/frame.h"
