@@ -39,7 +39,7 @@ class PovWriter final : public Writer {
         for (std::size_t k = 0; k < positions.size(); ++k)
             if (is_shown(positions[k])) append_pov_particle(text, positions[k], shade_of(values[k]));
         text += pov_objects(task.objects, options_.scene, stage_, camera_);
-        const std::string name = numbered_name(options_.stem, task.number, "pov");
+        const std::string name = numbered_name(options_.stem, task.number, frame_extension());
         if (auto done = write_file(options_.folder / name, {as_bytes(text)}); !done) return done.error();
         return InOrder([this] {
             ++frames_;
@@ -53,6 +53,8 @@ class PovWriter final : public Writer {
         return std::to_string(frames_) + " scenes " + (options_.folder / (options_.stem + "_*.pov")).string() +
                ", for povray";
     }
+
+    std::string_view frame_extension() const override { return "pov"; }
 
   private:
     bool is_shown(const Vec3& x) const {
