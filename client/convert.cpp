@@ -13,6 +13,7 @@
 #include "client/probe_csv.h"
 #include "client/progress.h"
 #include "client/text.h"
+#include "client/writers/boxes.h"
 #include "client/writers/stage.h"
 #include "proto/messages_json.h"
 #include "proto/recording.h"
