@@ -204,9 +204,11 @@ void add_file_commands(CLI::App& app, CommandLine& line) {
     converter->add_option("--target", words->target, "the point x,y,z that the eye looks at [m]; default: the middle");
     converter->add_option("--up", words->up, "upwards for the eye, x,y,z; default: against gravity");
     converter
-        ->add_option("--crop", words->crop,
-                     "pictures: what fills them, the same for all frames: fluid (what it reaches over the recording), "
-                     "scene (all), or x0,y0,x1,y1 or x0,y0,z0,x1,y1,z1 [m]")
+        ->add_option(
+            "--crop", words->crop,
+            "pictures: what fills them, the same for all frames: fluid (what it reaches in 48 frames spread over "
+            "the recording, less 0.2 % of spray on each side), scene (all), or x0,y0,x1,y1 or "
+            "x0,y0,z0,x1,y1,z1 [m]")
         ->capture_default_str();
     converter->add_option("--zoom", words->zoom, "pictures: so many times as large, about the middle or --target")
         ->capture_default_str();

@@ -54,6 +54,13 @@ class Watch {
         }
     }
 
+    // Removes the probe that this one has added: nobody looks at it any more. Whoever leaves waits no longer than for a
+    // query; the server removes it after a longer step all the same, and one that has gone is no error now.
+    void leave() {
+        if (!has_asked_for_probe_) return;
+        static_cast<void>(connection_.request("probes.remove", {{"name", kEnergyProbe}}, Patience::query).ok());
+    }
+
   private:
     proto::Status read_events() {
         for (;;) {
@@ -84,7 +91,8 @@ class Watch {
         dashboard_.say(done + " at step " + with_thousands((*result).value("step", std::int64_t{})));
     }
 
-    // The probe that tells the energy error. It makes steps longer, so it is there only when asked for.
+    // The probe that tells the energy error. It makes steps longer, so it is there only when asked for, and while
+    // somebody looks.
     void toggle_energies() {
         auto probes = call<proto::ProbesListReply>(connection_, "probes.list", proto::ProbesList{});
         if (!probes) return dashboard_.say(error_line(probes.error()));
@@ -92,9 +100,11 @@ class Watch {
             if (!std::holds_alternative<proto::EnergyProbe>(probe.probe.kind)) continue;
             if (probe.probe.name != kEnergyProbe)
                 return dashboard_.say("the probe " + probe.probe.name + " tells the energy error already");
+            has_asked_for_probe_ = false;
             return act("probes.remove", {{"name", kEnergyProbe}}, "no longer following energies");
         }
         const proto::Json probe{{"name", kEnergyProbe}, {"kind", {{"energies", proto::Json::object()}}}};
+        has_asked_for_probe_ = true;
         act("probes.add", {{"probe", probe}}, "following energies (e ends that)");
     }
 
@@ -118,6 +128,8 @@ class Watch {
     Connection& connection_;
     Dashboard& dashboard_;
     std::uint64_t seen_{0};
+    bool has_asked_for_probe_{
+        false};  // for the probe of energies, and not for its end since; Ctrl-C may hide the reply
 };
 
 proto::Status watch_live(Watch& watch, Dashboard& dashboard) {
@@ -152,7 +164,11 @@ proto::Status watch(const Globals& globals, bool is_once) {
     const bool has_colors = !is_once && std::getenv("NO_COLOR") == nullptr;
     Dashboard dashboard((*connection)->endpoint(), {locale_glyphs(), has_colors});
     Watch watch(**connection, dashboard);
-    if (!is_once) return watch_live(watch, dashboard);
+    if (!is_once) {
+        const proto::Status watched = watch_live(watch, dashboard);
+        if (watched || watched.error().code != proto::ErrorCode::connection_failed) watch.leave();
+        return watched;
+    }
     if (auto looked = watch.look(); !looked) return looked;
     for (const std::string& line : dashboard.lines(kSnapshotRows, kSnapshotColumns, false)) {
         const std::size_t end = line.find_last_not_of(' ');

@@ -13,6 +13,8 @@
 #include "client/probe_csv.h"
 #include "client/progress.h"
 #include "client/text.h"
+#include "client/writers/boxes.h"
+#include "client/writers/stage.h"
 #include "proto/messages_json.h"
 #include "proto/recording.h"
 #include "proto/suggest.h"
@@ -70,7 +72,6 @@ proto::FieldSet needed_fields(const FormatInfo& format, proto::Field color_field
 struct Output {
     std::unique_ptr<Writer> writer;
     proto::FieldSet fields;
-    std::string extension;  // of the file that each frame gets; empty: there is none
 };
 
 // Whether the recording holds what is asked for.
@@ -105,8 +106,7 @@ proto::Result<std::vector<Output>> make_outputs(const ConvertOptions& options, c
         for (const proto::FieldInfo& info : proto::kFields) fields.insert(info.field);
         const FormatInfo& format = *find_format(name);
         if (options.fields && !format.is_picture) fields = *options.fields | format.needs;
-        const bool is_one_file = name == "csv-long" || name == "mp4" || (name == "png" && !options.picture.every_frame);
-        outputs.push_back({*std::move(writer), fields, is_one_file ? "" : name});
+        outputs.push_back({*std::move(writer), fields});
     }
     return outputs;
 }
@@ -123,26 +123,48 @@ proto::Status check_region(proto::RecordingReader& reader, const std::vector<std
     return usage_error("no particle is ever inside", "--region", "the domain's corners are in the scene: scene.domain");
 }
 
-// What pictures of these frames have to show. Of long recordings some frames, evenly spread, tell it.
-proto::Result<Extents> find_extents(proto::RecordingReader& reader, const std::vector<std::size_t>& frames,
-                                    const ConvertOptions& options, const ObjectTimeline& timeline) {
+// The objects, if a format shows them: a recording whose motions cannot be evaluated still is one of particles.
+proto::Result<ObjectTimeline> make_timeline(const proto::RecordingReader& reader, const ConvertOptions& options,
+                                            const proto::SceneDesc& scene) {
+    if (std::ranges::none_of(options.formats, [](const auto& name) { return find_format(name)->shows_objects; }))
+        return ObjectTimeline();
+    auto objects = proto::parse_objects(reader.summary().metadata.objects_json);
+    if (!objects) return objects.error();
+    return ObjectTimeline::make(*std::move(objects), reader.events(), scene);
+}
+
+// What pictures of these frames have to show, as far as that is asked for. Of long recordings some frames, evenly
+// spread, tell it; they are unpacked only where particles or the step matter.
+proto::Result<std::optional<Extents>> find_extents(proto::RecordingReader& reader,
+                                                   const std::vector<std::size_t>& frames,
+                                                   const ConvertOptions& options, const proto::SceneDesc& scene,
+                                                   const ObjectTimeline& timeline) {
+    const bool has_pictures =
+        std::ranges::any_of(options.formats, [](const auto& name) { return find_format(name)->is_picture; });
+    const Reach reach = has_pictures ? needed_reach(scene, options.picture.view) : Reach::nothing;
+    if (reach == Reach::nothing) return std::optional<Extents>();
     constexpr std::size_t kFrames = 48;
     const std::size_t count = std::min(frames.size(), kFrames);
     Extents extents;
     std::vector<std::byte> bytes;
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t place = count == 1 ? 0 : k * (frames.size() - 1) / (count - 1);
-        auto frame = reader.read_frame(frames[place]);
-        if (!frame) return frame.error();
-        if (options.region) frame = select_region(*frame, *options.region, bytes);
-        include(extents.fluid, bounds_without_spray(*frame));
-        for (const PlacedObject& object : timeline.at(frame->info.step, frame->info.time))
+        std::uint64_t step = 0;
+        double time = reader.frame_time(frames[place]);
+        if (reach == Reach::objects_and_fluid || timeline.has_changes()) {
+            auto frame = reader.read_frame(frames[place]);
+            if (!frame) return frame.error();
+            step = frame->info.step, time = frame->info.time;
+            if (options.region) frame = select_region(*frame, *options.region, bytes);
+            if (reach == Reach::objects_and_fluid) include(extents.fluid, bounds_without_spray(*frame));
+        }
+        for (const PlacedObject& object : timeline.at(step, time))
             if (!object.is_plane())
                 include(object.is_container() ? extents.containers
                                               : extents.obstacles.try_emplace(object.desc.name, kNowhere).first->second,
                         placed_bounds(object));
     }
-    return extents;
+    return std::optional(std::move(extents));
 }
 
 // What is left to do with a frame, in order, and its time.
@@ -167,7 +189,8 @@ proto::Result<Prepared> prepare(proto::RecordingReader& reader, std::size_t inde
         if (!rest) return rest.error();
         files.add(number);
         // What grows may fail; the lists of frames come last, so that none is listed of which that has failed.
-        prepared.rest.insert(output.extension.empty() ? prepared.rest.begin() : prepared.rest.end(), *std::move(rest));
+        const bool grows = output.writer->frame_extension().empty();
+        prepared.rest.insert(grows ? prepared.rest.begin() : prepared.rest.end(), *std::move(rest));
     }
     return prepared;
 }
@@ -249,12 +272,9 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
     }
     if (options.formats.empty()) return conversion;
     if (auto checked = check_formats(options.formats); !checked) return checked.error();
-    const proto::RecordingMetadata& metadata = reader.summary().metadata;
-    auto scene = proto::parse_scene(metadata.scene_json);
+    auto scene = proto::parse_scene(reader.summary().metadata.scene_json);
     if (!scene) return scene.error();
-    auto objects = proto::parse_objects(metadata.objects_json);
-    if (!objects) return objects.error();
-    const auto timeline = ObjectTimeline::make(*std::move(objects), reader.events(), *scene);
+    const auto timeline = make_timeline(reader, options, *scene);
     if (!timeline) return timeline.error();
 
     const std::vector<std::size_t> frames = choose_frames(reader, options);
@@ -266,13 +286,9 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
     if (auto checked = check_recorded(options, recorded); !checked) return checked.error();
     if (options.region)
         if (auto checked = check_region(reader, frames, options); !checked) return checked.error();
-    std::optional<Extents> extents;
-    if (std::ranges::any_of(options.formats, [](const auto& name) { return find_format(name)->is_picture; })) {
-        auto found = find_extents(reader, frames, options, *timeline);
-        if (!found) return found.error();
-        extents = *found;
-    }
-    auto outputs = make_outputs(options, *scene, frames.size(), extents);
+    auto extents = find_extents(reader, frames, options, *scene, *timeline);
+    if (!extents) return extents.error();
+    auto outputs = make_outputs(options, *scene, frames.size(), *extents);
     if (!outputs) return outputs.error();
 
     // Each job reads by itself: unpacking and checking frames is a good part of the work.
@@ -286,7 +302,7 @@ proto::Result<Conversion> convert(const ConvertOptions& options) {
         readers.push_back(*std::move(another));
     }
     std::vector<std::string> extensions;
-    for (const Output& output : *outputs) extensions.push_back(output.extension);
+    for (const Output& output : *outputs) extensions.emplace_back(output.writer->frame_extension());
     FrameFiles files(options.folder, options.recording.stem().string(), std::move(extensions), frames.size());
     if (auto written = write_frames(readers, frames, options, *timeline, *outputs, files, conversion); !written)
         return failed_after(written.error(), files, conversion, frames.size());

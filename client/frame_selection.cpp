@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "client/writers/vec3.h"
+#include "client/writers/boxes.h"
 
 namespace headrace::client {
 

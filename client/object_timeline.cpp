@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 
 namespace headrace::client {
 
@@ -11,7 +12,12 @@ proto::Result<ObjectTimeline> ObjectTimeline::make(std::vector<proto::ObjectDesc
     ObjectTimeline timeline;
     const auto add = [&](std::uint64_t step, std::vector<proto::ObjectDesc> objects) -> proto::Status {
         auto motions = scene::MovingObjects::make(objects, scene.dimensions, scene.spacing);
-        if (!motions) return motions.error();
+        if (!motions) {
+            proto::Error error = motions.error();
+            if (!timeline.changes_.empty())
+                error.message += ", of the objects from step " + std::to_string(step) + " on";
+            return error;
+        }
         timeline.changes_.push_back({step, std::move(objects), *std::move(motions)});
         return proto::Done{};
     };
@@ -20,15 +26,16 @@ proto::Result<ObjectTimeline> ObjectTimeline::make(std::vector<proto::ObjectDesc
         if (event.objects)
             if (auto added = add(event.step, *event.objects); !added) return added.error();
     // Events of one step keep their order: the last one counts.
-    std::stable_sort(timeline.changes_.begin() + 1, timeline.changes_.end(),
+    std::stable_sort(timeline.changes_.begin(), timeline.changes_.end(),
                      [](const Change& a, const Change& b) { return a.step < b.step; });
     return timeline;
 }
 
 std::vector<PlacedObject> ObjectTimeline::at(std::uint64_t step, double time) const {
     const auto after =
-        std::upper_bound(changes_.begin() + 1, changes_.end(), step,
+        std::upper_bound(changes_.begin(), changes_.end(), step,
                          [](std::uint64_t wanted, const Change& change) { return wanted < change.step; });
+    if (after == changes_.begin()) return {};
     const Change& last = *std::prev(after);
     const std::vector<scene::Placement> places = last.motions.at(time);
     std::vector<PlacedObject> placed;

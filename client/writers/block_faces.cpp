@@ -24,15 +24,14 @@ std::array<Edge, 12> make_edges() {
     return edges;
 }
 
-// Precondition: the block is not turned.
+// Shorter at the cut, and open there; what is above or below altogether stays. Precondition: the block is not turned.
 OpenBlock cut_open(const Block& whole, const Stage& stage) {
     if (!stage.cutaway) return {whole};
-    const proto::BoxDesc box{whole.corners.front(), whole.corners.back()}, part = common_part(box, *stage.cutaway);
-    for (const Face& face : kFaces) {
-        const auto axis = static_cast<std::size_t>(face.axis);
-        if (face.is_max ? part.max[axis] < box.max[axis] : part.min[axis] > box.min[axis]) return {Block(part), &face};
-    }
-    return {whole};
+    const auto [axis, is_max, at] = *stage.cutaway;
+    proto::BoxDesc box{whole.corners.front(), whole.corners.back()};
+    if (!(box.min[axis] < at && at < box.max[axis])) return {whole};
+    (is_max ? box.max : box.min)[axis] = at;
+    return {Block(box), &kFaces[2 * axis + (is_max ? 1 : 0)]};
 }
 
 }  // namespace

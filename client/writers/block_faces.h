@@ -16,6 +16,7 @@ struct Face {
     bool is_max;
 };
 inline constexpr std::array<Face, 6> kFaces{{
+    // by axis, min before max
     {{0, 4, 6, 2}, 0, false},
     {{1, 3, 7, 5}, 0, true},
     {{0, 1, 5, 4}, 1, false},

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "client/writers/boxes.h"
+
 namespace headrace::client {
 
 namespace {
@@ -19,16 +21,6 @@ Vec3 front_right(const Vec3& up) {
     return std::abs(up[0]) > 0.5 ? cross(up, z) : x;
 }
 
-proto::BoxDesc bounding_box(std::span<const Vec3> points) {
-    proto::BoxDesc box{points.front(), points.front()};
-    for (const Vec3& point : points)
-        for (std::size_t k = 0; k < 3; ++k) {
-            box.min[k] = std::min(box.min[k], point[k]);
-            box.max[k] = std::max(box.max[k], point[k]);
-        }
-    return box;
-}
-
 }  // namespace
 
 Camera Camera::perspective(std::span<const Vec3> points, const Vec3& up, const Viewport& viewport) {
@@ -38,7 +30,7 @@ Camera Camera::perspective(std::span<const Vec3> points, const Vec3& up, const V
     const Vec3 level = std::sin(kAzimuth) * right + std::cos(kAzimuth) * front;
     camera.backward_ = std::cos(kElevation) * level + std::sin(kElevation) * up;
     camera.up_ = cross(camera.backward_, camera.right_);
-    const proto::BoxDesc bounds = bounding_box(points);
+    const proto::BoxDesc bounds = bounds_of(points);
     const Vec3 center = 0.5 * (bounds.min + bounds.max);
     camera.eye_ = center + (kDistance * 0.5 * length(bounds.max - bounds.min)) * camera.backward_;
     camera.fit(points, viewport);

@@ -43,7 +43,7 @@ class CsvWriter final : public Writer {
             text += '\n';
         }
 
-        const std::string name = numbered_name(options_.stem, task.number, "csv");
+        const std::string name = numbered_name(options_.stem, task.number, frame_extension());
         if (auto written = write_file(options_.folder / name, {as_bytes(text)}); !written) return written.error();
         return InOrder([this, info = frame.info, name] {
             append_number(index_, info.step);
@@ -63,6 +63,8 @@ class CsvWriter final : public Writer {
         return std::to_string(frames_) + " files " + (options_.folder / (options_.stem + "_*.csv")).string() +
                ", their times in " + index_path().string();
     }
+
+    std::string_view frame_extension() const override { return "csv"; }
 
   private:
     std::filesystem::path index_path() const { return options_.folder / (options_.stem + "_frames.csv"); }

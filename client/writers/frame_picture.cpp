@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/writers/annotations.h"
+#include "client/writers/boxes.h"
 #include "client/writers/scene_view.h"
 
 namespace headrace::client {

@@ -104,7 +104,8 @@ class NpzWriter final : public Writer {
                 field.is_vector ? "(" + count + ", " + std::to_string(column.components) + ")" : "(" + count + ",)",
                 column.bytes);
         }
-        const std::filesystem::path file = options_.folder / numbered_name(options_.stem, task.number, "npz");
+        const std::filesystem::path file =
+            options_.folder / numbered_name(options_.stem, task.number, frame_extension());
         const std::vector<std::byte> bytes = archive.finish();
         if (bytes.empty())
             return proto::Error{proto::ErrorCode::file_error, "cannot make the zip archive", file.string(),
@@ -122,6 +123,8 @@ class NpzWriter final : public Writer {
         return std::to_string(frames_) + " files " + (options_.folder / (options_.stem + "_*.npz")).string() +
                ", for numpy.load";
     }
+
+    std::string_view frame_extension() const override { return "npz"; }
 
   private:
     WriterOptions options_;

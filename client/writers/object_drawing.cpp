@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "client/writers/block_faces.h"
+#include "client/writers/boxes.h"
 
 namespace headrace::client {
 
@@ -118,8 +119,7 @@ void draw_cylinder(Raster& raster, const proto::CylinderDesc& cylinder, bool nea
     for (const bool is_end : {false, true}) {
         const Vec3& center = is_end ? cylinder.to : cylinder.from;
         if (!is_seen((is_end ? 1.0 : -1.0) * axis, center)) continue;
-        std::vector<Vec3> rim;
-        for (int k = 0; k < kFacets; ++k) rim.push_back(center + cylinder.radius * normal_at(k));
+        const std::vector<Vec3> rim = circle(center, cylinder.radius, axis, kFacets);
         raster.polygon(rim, color, alpha);
         for (int k = 0; k < kFacets; ++k) raster.line(rim[k], rim[(k + 1) % kFacets], kEdgeWidth, edge, 0.7);
     }
@@ -166,16 +166,6 @@ void draw_flat_plane(Raster& raster, const proto::PlaneDesc& plane, const BoxDes
 Vec3 center_of(const PlacedObject& object) {
     const BoxDesc box = placed_bounds(object);
     return 0.5 * (box.min + box.max);
-}
-
-std::vector<Vec3> circle(const SphereDesc& disc) {
-    constexpr int kCorners = 180;
-    std::vector<Vec3> corners;
-    for (int k = 0; k < kCorners; ++k) {
-        const double angle = 2 * std::numbers::pi * k / kCorners;
-        corners.push_back(disc.center + Vec3{disc.radius * std::cos(angle), disc.radius * std::sin(angle), 0});
-    }
-    return corners;
 }
 
 }  // namespace
@@ -225,7 +215,7 @@ void draw_flat_objects(Raster& raster, const std::vector<PlacedObject>& objects,
             std::vector<Vec3> corners;
             const PlacedShape shape = placed_shape(object);
             if (const auto* disc = std::get_if<SphereDesc>(&shape)) {
-                corners = circle(*disc);
+                corners = circle(disc->center, disc->radius, {0, 0, 1}, 180);
             } else {
                 const Block block =
                     role == ObjectRole::obstacle ? visible_block(object, objects) : std::get<Block>(shape);

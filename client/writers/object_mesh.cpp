@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "client/writers/vec3.h"
+#include "client/writers/boxes.h"
 
 namespace headrace::client {
 
@@ -19,11 +19,8 @@ constexpr int kParallels = 24;
 class MeshBuilder {
   public:
     void box(const BoxDesc& box) {
-        // Corner k: bit 0 takes x, bit 1 y, bit 2 z from max.
         const std::int32_t first = point_count();
-        for (int corner = 0; corner < 8; ++corner)
-            point({(corner & 1 ? box.max : box.min)[0], (corner & 2 ? box.max : box.min)[1],
-                   (corner & 4 ? box.max : box.min)[2]});
+        for (int corner = 0; corner < 8; ++corner) point(box_corner(box, corner));
         constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
         for (const auto& face : kFaces) polygon({first + face[0], first + face[1], first + face[2], first + face[3]});
@@ -51,13 +48,9 @@ class MeshBuilder {
     // The mantle as quadrilaterals, each end as triangles about its centre.
     void cylinder(const proto::CylinderDesc& cylinder) {
         const Vec3 axis = normalized(cylinder.to - cylinder.from);
-        const auto [side, front] = perpendiculars(axis);
         const std::int32_t first = point_count();
         for (const Vec3& center : {cylinder.from, cylinder.to})
-            for (int k = 0; k < kMeridians; ++k) {
-                const double azimuth = 2 * std::numbers::pi * k / kMeridians;
-                point(center + cylinder.radius * (std::cos(azimuth) * side + std::sin(azimuth) * front));
-            }
+            for (const Vec3& x : circle(center, cylinder.radius, axis, kMeridians)) point(x);
         const std::int32_t centers = point_count();
         point(cylinder.from);
         point(cylinder.to);
@@ -76,15 +69,8 @@ class MeshBuilder {
                  {box.min[0], box.max[1], 0}});
     }
 
-    void circle(const SphereDesc& disc) {
-        constexpr int kCorners = 128;
-        std::vector<Vec3> corners;
-        for (int k = 0; k < kCorners; ++k) {
-            const double angle = 2 * std::numbers::pi * k / kCorners;
-            corners.push_back(
-                {disc.center[0] + disc.radius * std::cos(angle), disc.center[1] + disc.radius * std::sin(angle), 0});
-        }
-        outline(corners);
+    void disc(const SphereDesc& disc) {
+        outline(circle({disc.center[0], disc.center[1], 0}, disc.radius, {0, 0, 1}, 128));
     }
 
     // Of the points from here on.
@@ -141,7 +127,7 @@ VtpPiece make_object_mesh(const std::vector<PlacedObject>& objects, int dimensio
         if (const auto* box = std::get_if<BoxDesc>(&object.shape))
             dimensions == 2 ? mesh.rectangle(*box) : mesh.box(*box);
         else if (const auto* sphere = std::get_if<SphereDesc>(&object.shape))
-            dimensions == 2 ? mesh.circle(*sphere) : mesh.sphere(*sphere);
+            dimensions == 2 ? mesh.disc(*sphere) : mesh.sphere(*sphere);
         else if (const auto* cylinder = std::get_if<proto::CylinderDesc>(&object.shape))
             mesh.cylinder(*cylinder);
         object_of_cell.resize(mesh.cell_count(), static_cast<std::int32_t>(k));

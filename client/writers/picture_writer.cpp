@@ -31,7 +31,7 @@ class PictureWriter final : public Writer {
             cell = small_->draw(particle_positions(frame), color_values(frame, options_.picture.color_field),
                                 task.objects);
         if (options_.picture.every_frame) {
-            const std::string name = numbered_name(options_.stem, task.number, "png");
+            const std::string name = numbered_name(options_.stem, task.number, frame_extension());
             if (auto done = write_png(options_.folder / name, picture_.draw(task)); !done) return done.error();
         }
         return InOrder(
@@ -54,6 +54,8 @@ class PictureWriter final : public Writer {
         if (small_ && frames_ > 0) text += (text.empty() ? "" : "; ") + ("at a glance: " + sheet_path().string());
         return text;
     }
+
+    std::string_view frame_extension() const override { return options_.picture.every_frame ? "png" : ""; }
 
   private:
     // Cells have the shape of what they show, so that the sheet wastes no room.

@@ -3,29 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/writers/boxes.h"
 #include "proto/shape_bounds.h"
 
 namespace headrace::client {
 
-namespace {
-
 using proto::BoxDesc;
-
-BoxDesc bounds_of(const Block& block) {
-    BoxDesc bounds{block.corners[0], block.corners[0]};
-    for (const Vec3& corner : block.corners) include(bounds, {corner, corner});
-    return bounds;
-}
-
-// What contains: the containers' bounds together.
-BoxDesc container_bounds(const std::vector<PlacedObject>& objects) {
-    BoxDesc bounds = kNowhere;
-    for (const PlacedObject& object : objects)
-        if (object.is_container() && !object.is_plane()) include(bounds, placed_bounds(object));
-    return bounds;
-}
-
-}  // namespace
 
 std::vector<PlacedObject> at_rest(const std::vector<proto::ObjectDesc>& objects) {
     return {objects.begin(), objects.end()};
@@ -48,15 +31,22 @@ PlacedShape placed_shape(const PlacedObject& object) {
 
 BoxDesc placed_bounds(const PlacedObject& object) {
     const PlacedShape shape = placed_shape(object);
-    if (const auto* block = std::get_if<Block>(&shape)) return bounds_of(*block);
+    if (const auto* block = std::get_if<Block>(&shape)) return bounds_of(block->corners);
     if (const auto* sphere = std::get_if<proto::SphereDesc>(&shape)) return proto::bounding_box(*sphere);
     return proto::bounding_box(std::get<proto::CylinderDesc>(shape));
+}
+
+BoxDesc container_bounds(const std::vector<PlacedObject>& objects) {
+    BoxDesc bounds = kNowhere;
+    for (const PlacedObject& object : objects)
+        if (object.is_container() && !object.is_plane()) include(bounds, placed_bounds(object));
+    return bounds;
 }
 
 Block visible_block(const PlacedObject& obstacle, const std::vector<PlacedObject>& objects) {
     const Block whole(std::get<BoxDesc>(obstacle.desc.shape), obstacle.place);
     if (obstacle.place.is_turned()) return whole;
-    return Block(common_part(bounds_of(whole), container_bounds(objects)));
+    return Block(common_part(bounds_of(whole.corners), container_bounds(objects)));
 }
 
 std::vector<Vec3> plane_in_box(const proto::PlaneDesc& plane, const BoxDesc& box) {

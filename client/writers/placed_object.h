@@ -42,6 +42,9 @@ PlacedShape placed_shape(const PlacedObject& object);
 // [m] Of the shape where the object is. Precondition: no plane.
 proto::BoxDesc placed_bounds(const PlacedObject& object);
 
+// [m] What contains: the containers' bounds together; planes have none.
+proto::BoxDesc container_bounds(const std::vector<PlacedObject>& objects);
+
 // The part of an obstacle's box that is inside the containers: a panel may reach through walls, which cannot matter.
 // Turned ones stay whole, and so do those that are outside altogether.
 Block visible_block(const PlacedObject& obstacle, const std::vector<PlacedObject>& objects);

@@ -60,7 +60,7 @@ class PlyWriter final : public Writer {
                 std::memcpy(first + row * vertex_bytes, column.bytes.data() + row * row_bytes, row_bytes);
             first += stored_components(column) * value_bytes;
         }
-        const std::string name = numbered_name(options_.stem, task.number, "ply");
+        const std::string name = numbered_name(options_.stem, task.number, frame_extension());
         if (auto done = write_file(options_.folder / name, {as_bytes(make_header(frame)), vertices}); !done)
             return done.error();
         return InOrder([this] {
@@ -75,6 +75,8 @@ class PlyWriter final : public Writer {
         return std::to_string(frames_) + " files " + (options_.folder / (options_.stem + "_*.ply")).string() +
                ", point clouds for Blender, MeshLab and the like";
     }
+
+    std::string_view frame_extension() const override { return "ply"; }
 
   private:
     WriterOptions options_;

@@ -5,7 +5,9 @@
 
 #include "client/writers/file_output.h"
 #include "client/writers/formats.h"
+#include "client/writers/pov_objects.h"
 #include "client/writers/pov_scene.h"
+#include "client/writers/pov_text.h"
 #include "client/writers/scene_view.h"
 #include "client/writers/stage.h"
 
@@ -19,8 +21,8 @@ class PovWriter final : public Writer {
         : options_(options),
           colors_(make_color_scale(options.scene, options.picture)),
           stage_(make_stage(options.scene, options.picture.view, options.extents)),
-          camera_(make_camera(options.scene, stage_, options.picture.view, {0, 0, 1, 1})),
-          head_(pov_head(options, stage_, colors_)) {}
+          camera_(make_pov_camera(options, stage_)),
+          head_(pov_head(options, stage_, camera_, colors_)) {}
 
     proto::Result<InOrder> prepare(const FrameTask& task) override {
         const proto::FrameView& frame = task.frame;
@@ -37,7 +39,7 @@ class PovWriter final : public Writer {
         for (std::size_t k = 0; k < positions.size(); ++k)
             if (is_shown(positions[k])) append_pov_particle(text, positions[k], shade_of(values[k]));
         text += pov_objects(task.objects, options_.scene, stage_, camera_);
-        const std::string name = numbered_name(options_.stem, task.number, "pov");
+        const std::string name = numbered_name(options_.stem, task.number, frame_extension());
         if (auto done = write_file(options_.folder / name, {as_bytes(text)}); !done) return done.error();
         return InOrder([this] {
             ++frames_;
@@ -51,6 +53,8 @@ class PovWriter final : public Writer {
         return std::to_string(frames_) + " scenes " + (options_.folder / (options_.stem + "_*.pov")).string() +
                ", for povray";
     }
+
+    std::string_view frame_extension() const override { return "pov"; }
 
   private:
     bool is_shown(const Vec3& x) const {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "client/writers/boxes.h"
 #include "client/writers/camera.h"
 #include "client/writers/image.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "client/writers/boxes.h"
 #include "proto/shape_bounds.h"
 
 namespace headrace::client {
@@ -43,14 +44,6 @@ double stated_speed(const proto::ScalarVec3& velocity) {
     return length(stated);
 }
 
-BoxDesc container_bounds(const std::vector<proto::ObjectDesc>& objects) {
-    BoxDesc bounds = kNowhere;
-    for (const proto::ObjectDesc& object : objects)
-        if (object.role == proto::ObjectRole::container && !is_plane(object.shape))
-            include(bounds, bounding_box(object.shape));
-    return bounds;
-}
-
 // [m] From the lowest point that the fluid can reach to its top at the start.
 double fall_height(const SceneDesc& scene) {
     const Vec3 up = up_axis(scene);
@@ -87,13 +80,14 @@ Vec3 up_axis(const SceneDesc& scene) {
 }
 
 BoxDesc visible_bounds(const SceneDesc& scene) {
-    BoxDesc bounds = container_bounds(scene.objects);
+    const BoxDesc containers = container_bounds(at_rest(scene.objects));
+    BoxDesc bounds = containers;
     for (const proto::FluidDesc& fluid : scene.fluids)
         if (!fluid.particles) include(bounds, bounding_box(fluid.shape));
     for (const proto::ObjectDesc& object : scene.objects)
         if (object.role == proto::ObjectRole::obstacle && !is_plane(object.shape))
-            include(bounds, common_part(bounding_box(object.shape), container_bounds(scene.objects)));
-    if (bounds.min[0] > bounds.max[0]) bounds = {scene.domain.min, scene.domain.max};
+            include(bounds, common_part(bounding_box(object.shape), containers));
+    if (is_nowhere(bounds)) bounds = {scene.domain.min, scene.domain.max};
     for (std::size_t k = 0; k < 3; ++k) {
         if (k == 2 && scene.dimensions == 2) bounds.min[k] = bounds.max[k] = 0;
         // A flat scene still has a picture.

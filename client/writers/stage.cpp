@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "client/writers/boxes.h"
 #include "client/writers/scene_view.h"
 
 namespace headrace::client {
@@ -101,9 +102,13 @@ std::optional<BoxDesc> fluid_rectangle(const BoxDesc& whole, const Extents& exte
     return part;
 }
 
+std::size_t axis_of(const Vec3& up) {
+    return up[0] != 0 ? 0 : up[1] != 0 ? 1 : 2;
+}
+
 // 3D: the tank up to a little above the fluid, if that is much lower.
 std::optional<BoxDesc> cut_above(const BoxDesc& whole, const Extents& extents, const Vec3& up) {
-    const std::size_t axis = up[0] != 0 ? 0 : up[1] != 0 ? 1 : 2;
+    const std::size_t axis = axis_of(up);
     const auto inverse_height = [axis](const BoxDesc& box) { return 1 / (box.max[axis] - box.min[axis]); };
     const BoxDesc& fluid = extents.fluid;
     BoxDesc part = whole;
@@ -113,6 +118,14 @@ std::optional<BoxDesc> cut_above(const BoxDesc& whole, const Extents& extents, c
     part = with_obstacles(part, whole, extents, inverse_height);
     if (inverse_height(part) < kWorthIt * inverse_height(whole)) return {};
     return part;
+}
+
+// Without width or height where they have nothing in common.
+Viewport overlap(const Viewport& part, const Viewport& of) {
+    const double end_x = of.left + of.width, end_y = of.top + of.height;
+    const double left = std::clamp(part.left, of.left, end_x), top = std::clamp(part.top, of.top, end_y);
+    return {left, top, std::clamp(part.left + part.width, left, end_x) - left,
+            std::clamp(part.top + part.height, top, end_y) - top};
 }
 
 }  // namespace
@@ -131,8 +144,10 @@ Stage make_stage(const SceneDesc& scene, const ViewOptions& view, const std::opt
         std::optional<BoxDesc> part;
         if (scene.dimensions == 2) part = fluid_rectangle(whole, *extents);
         if (scene.dimensions == 3 && can_be_cut(scene)) {
-            part = cut_above(whole, *extents, up_axis(scene));
-            stage.cutaway = part;
+            const Vec3 up = up_axis(scene);
+            const std::size_t axis = axis_of(up);
+            part = cut_above(whole, *extents, up);
+            if (part) stage.cutaway = Cutaway{axis, up[axis] > 0, (up[axis] > 0 ? part->max : part->min)[axis]};
         }
         if (part) {
             stage.bounds = *part;
@@ -146,6 +161,12 @@ Stage make_stage(const SceneDesc& scene, const ViewOptions& view, const std::opt
         if (const auto* sphere = std::get_if<proto::SphereDesc>(&scene.objects[0].shape))
             stage.outline = surface_of(*sphere, scene.dimensions);
     return stage;
+}
+
+Reach needed_reach(const SceneDesc& scene, const ViewOptions& view) {
+    if (view.crop) return Reach::nothing;
+    const bool is_cut_to_fluid = !view.whole && (scene.dimensions == 2 || can_be_cut(scene));
+    return is_cut_to_fluid || !has_containers(scene) ? Reach::objects_and_fluid : Reach::objects;
 }
 
 proto::Status check_view(const WriterOptions& options) {
@@ -210,13 +231,14 @@ Camera make_camera(const SceneDesc& scene, const Stage& stage, const ViewOptions
 std::optional<Viewport> clip_of(const Stage& stage, const ViewOptions& view, const Camera& camera,
                                 const Viewport& viewport) {
     if (!stage.is_part) return {};
-    if (view.zoom != 1) return viewport;
+    if (view.zoom != 1 && !stage.hides_rest) return viewport;
     // Lines at the edge are as wide as elsewhere, and what the stage shows has room for particles that stand at its
     // edge; above there are words.
     constexpr double kLine = 2, kParticle = 10;  // [px]
     const double room = stage.hides_rest ? kLine : kParticle;
     const Viewport v = stage.hides_rest ? camera.covered(stage.outline) : viewport;
-    return Viewport{v.left - room, v.top - kLine, v.width + 2 * room, v.height + kLine + room};
+    const Viewport part{v.left - room, v.top - kLine, v.width + 2 * room, v.height + kLine + room};
+    return view.zoom == 1 ? part : overlap(part, viewport);
 }
 
 }  // namespace headrace::client

@@ -1,10 +1,10 @@
 // Just enough vector algebra for drawing.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 #include "proto/scene_desc.h"
 
@@ -41,39 +41,15 @@ inline std::pair<Vec3, Vec3> perpendiculars(const Vec3& axis) {
     return {first, cross(axis, first)};
 }
 
-// Corner k of a box, 0 <= k < 8: bit 0 takes x, bit 1 y, bit 2 z from max.
-inline Vec3 box_corner(const proto::BoxDesc& box, int k) {
-    return {(k & 1 ? box.max : box.min)[0], (k & 2 ? box.max : box.min)[1], (k & 4 ? box.max : box.min)[2]};
-}
-
-// ---- boxes: unions start from kNowhere ----
-
-inline constexpr double kInfinitelyFarAway = std::numeric_limits<double>::infinity();
-inline constexpr proto::BoxDesc kNowhere{{kInfinitelyFarAway, kInfinitelyFarAway, kInfinitelyFarAway},
-                                         {-kInfinitelyFarAway, -kInfinitelyFarAway, -kInfinitelyFarAway}};
-
-inline bool is_nowhere(const proto::BoxDesc& box) {
-    return box.min[0] > box.max[0];
-}
-inline void include(proto::BoxDesc& bounds, const proto::BoxDesc& box) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        bounds.min[k] = std::min(bounds.min[k], box.min[k]);
-        bounds.max[k] = std::max(bounds.max[k], box.max[k]);
+// Points all around, counter-clockwise about the unit vector `normal`.
+inline std::vector<Vec3> circle(const Vec3& center, double radius, const Vec3& normal, int count) {
+    const auto [side, front] = perpendiculars(normal);
+    std::vector<Vec3> points;
+    for (int k = 0; k < count; ++k) {
+        const double angle = 2 * std::numbers::pi * k / count;
+        points.push_back(center + radius * (std::cos(angle) * side + std::sin(angle) * front));
     }
-}
-// What two boxes have in common; `box` where that is nothing.
-inline proto::BoxDesc common_part(const proto::BoxDesc& box, const proto::BoxDesc& other) {
-    proto::BoxDesc common = box;
-    for (std::size_t k = 0; k < 3; ++k) {
-        common.min[k] = std::max(box.min[k], other.min[k]);
-        common.max[k] = std::min(box.max[k], other.max[k]);
-        if (common.min[k] > common.max[k]) return box;
-    }
-    return common;
-}
-inline proto::BoxDesc grown(const proto::BoxDesc& box, double margin) {
-    return {{box.min[0] - margin, box.min[1] - margin, box.min[2] - margin},
-            {box.max[0] + margin, box.max[1] + margin, box.max[2] + margin}};
+    return points;
 }
 
 }  // namespace headrace::client

@@ -91,7 +91,7 @@ class VtpWriter final : public Writer {
             return proto::Error{proto::ErrorCode::limit_exceeded, "a .vtp file holds 2^31 - 1 particles at most", "",
                                 ""};
 
-        const std::string name = numbered_name(options_.stem, task.number, "vtp");
+        const std::string name = numbered_name(options_.stem, task.number, frame_extension());
         if (auto done = write_vtp(options_.folder / name, make_particles(frame, *position, radius_)); !done)
             return done.error();
         return InOrder([this, info = frame.info, objects = task.objects, name] {
@@ -109,6 +109,8 @@ class VtpWriter final : public Writer {
     }
 
     std::string summary() const override { return "open " + collection_path().string() + " in ParaView"; }
+
+    std::string_view frame_extension() const override { return "vtp"; }
 
   private:
     proto::Status write_objects(const std::vector<PlacedObject>& objects, int dimensions) {

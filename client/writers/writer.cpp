@@ -23,14 +23,14 @@ struct Format {
 
 using proto::Field;
 constexpr std::array<Format, 8> kFormats{{
-    {{"vtp", {Field::position}, false}, make_vtp_writer},
-    {{"csv", {}, false}, make_csv_writer},
-    {{"csv-long", {Field::id}, false}, make_long_csv_writer},
-    {{"npz", {}, false}, make_npz_writer},
-    {{"ply", {Field::position}, false}, make_ply_writer},
-    {{"png", {Field::position}, true}, make_picture_writer},
-    {{"mp4", {Field::position}, true}, make_mp4_writer},
-    {{"pov", {Field::position}, true}, make_pov_writer},
+    {{"vtp", {Field::position}, false, true}, make_vtp_writer},
+    {{"csv", {}, false, false}, make_csv_writer},
+    {{"csv-long", {Field::id}, false, false}, make_long_csv_writer},
+    {{"npz", {}, false, false}, make_npz_writer},
+    {{"ply", {Field::position}, false, false}, make_ply_writer},
+    {{"png", {Field::position}, true, true}, make_picture_writer},
+    {{"mp4", {Field::position}, true, true}, make_mp4_writer},
+    {{"pov", {Field::position}, true, true}, make_pov_writer},
 }};
 
 proto::Status check_picture(const PictureOptions& picture) {

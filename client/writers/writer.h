@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "client/writers/boxes.h"
 #include "client/writers/palette.h"
 #include "client/writers/placed_object.h"
 #include "proto/frame.h"
@@ -65,8 +66,9 @@ struct WriterOptions {
 // One frame of a conversion.
 struct FrameTask {
     const proto::FrameView& frame;
-    std::size_t number{};                      // among the frames converted, from 0
-    const std::vector<PlacedObject>& objects;  // of this frame, after events and commands, where they stand then
+    std::size_t number{};  // among the frames converted, from 0
+    // Of this frame, after events and commands, where they stand then; for formats that show them.
+    const std::vector<PlacedObject>& objects;
 };
 
 // After an error the writer only wants to be destroyed; files of the frames before it are whole.
@@ -82,6 +84,8 @@ class Writer {
     virtual proto::Result<InOrder> prepare(const FrameTask& task) = 0;
     virtual proto::Status finish() = 0;       // index files; call once, after the last frame
     virtual std::string summary() const = 0;  // for a person: what was written and how to open it
+    // Of the file that prepare() writes of each frame, <stem>_000123.<extension>; empty: frames get none of their own.
+    virtual std::string_view frame_extension() const { return {}; }
 
     // The same for frames that come one after the other.
     proto::Status write(const proto::FrameView& frame, const std::vector<PlacedObject>& objects);
@@ -94,6 +98,7 @@ struct FormatInfo {
     std::string_view name;
     proto::FieldSet needs;  // pictures besides: the field that the colours show
     bool is_picture;        // draws what it needs; other formats store all fields that are chosen
+    bool shows_objects;     // others take no notice of a task's objects
 };
 
 std::vector<FormatInfo> writer_formats();

@@ -111,12 +111,20 @@ sees $'q q|p pause  r resume'
 in_tmux resize-window -x 100 -y 30
 sees 'kinetic energy'
 
-# Endings
+# Endings. The probe of energies goes with who has asked for it; another's stays.
 press q
 has_ended 0
-watch_begins
-press C-c
-has_ended 130
+[[ $("$headrace" probes) == *energy\ * ]] || fail "the probe that was there is gone: $("$headrace" probes)"
+expect 0 '.*' "$headrace" call probes.remove '{"name": "energy"}'
+for ending in q C-c; do
+    watch_begins
+    press e
+    sees 'following energies \(e ends that\)'
+    [[ $("$headrace" probes) == *watched_energies* ]] || fail "there is no probe: $("$headrace" probes)"
+    press $ending
+    case $ending in q) has_ended 0 ;; C-c) has_ended 130 ;; esac
+    [[ $("$headrace" probes) != *watched_energies* ]] || fail "after $ending its probe is left: $("$headrace" probes)"
+done
 for signal in TERM HUP SEGV QUIT; do
     watch_begins
     kill -s $signal "$(cat pid)"
@@ -135,8 +143,10 @@ line 'fg; echo $? >status'
 sees 'p pause.*q quit'
 press q
 has_ended 0
-# The server goes away under it.
+# The server goes away under it, with its probe.
 watch_begins
+press e
+sees 'following energies'
 expect 0 'the server ends' "$headrace" shutdown
 wait "$server_pid"
 server_pid=

@@ -83,4 +83,18 @@ TEST_CASE("ObjectTimeline.AMotionThatCannotBeEvaluatedIsNamed") {
     const auto timeline = ObjectTimeline::make({object("tank"), panel}, {}, {});
     REQUIRE_FALSE(timeline.ok());
     CHECK(timeline.error().path == "objects[1].motion.angle");
+    CHECK(timeline.error().message.find("step") == std::string::npos);
+
+    // One that came with a command: since when.
+    const auto later = ObjectTimeline::make({object("tank")}, {change(70, {panel})}, {});
+    REQUIRE_FALSE(later.ok());
+    CHECK(later.error().path == "objects[0].motion.angle");
+    CHECK(later.error().message.ends_with(", of the objects from step 70 on"));
+}
+
+TEST_CASE("ObjectTimeline.OfNothingHasNoObjects") {
+    CHECK(ObjectTimeline().at(0, 0).empty());
+    CHECK_FALSE(ObjectTimeline().has_changes());
+    CHECK_FALSE(made({object("tank")}, {}).has_changes());
+    CHECK(made({object("tank")}, {change(100, {})}).has_changes());
 }

@@ -1,6 +1,9 @@
 // What the pictures of a recording show.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "client/writers/block_faces.h"
+#include "client/writers/boxes.h"
 #include "client/writers/scene_renderer.h"
 #include "client/writers/stage.h"
 #include "tests/unit/client/writers/synthetic.h"
@@ -92,9 +95,38 @@ TEST_CASE("Stage.HighTanksAreCutOpenAboveTheFluid") {
     REQUIRE(stage.cutaway);
     CHECK(stage.bounds.max[1] == Approx(0.31 + 0.09 * 0.3));
     CHECK(stage.bounds.max[0] == 1);
+    CHECK(stage.cutaway->axis == 1);
+    CHECK(stage.cutaway->is_max);
+    CHECK(stage.cutaway->at == stage.bounds.max[1]);
     proto::SceneDesc bowl = scene;
     bowl.objects[0].shape = proto::SphereDesc{{0.5, 0.4, 0.2}, 0.5};
     CHECK_FALSE(make_stage(bowl, {}, low).cutaway);
+}
+
+TEST_CASE("Stage.WhatIsCutOpenIsLowerAndNothingElse") {
+    const Extents low = extents_of({{0.01, 0.01, 0.01}, {0.99, 0.31, 0.39}}, {{0, 0, 0}, {1, 0.8, 0.4}});
+    Stage stage = make_stage(tank_scene(), {}, low);
+    REQUIRE(stage.cutaway);
+    const double top = stage.cutaway->at;
+    const auto shown = [&](const proto::BoxDesc& box) {
+        return shown_container(proto::ObjectDesc{"box", proto::ObjectRole::container, box}, stage);
+    };
+    // Wider than all that the stage shows.
+    const OpenBlock wide = shown({{-1, 0, -2}, {3, 0.8, 5}});
+    CHECK(bounds_of(wide.block.corners) == proto::BoxDesc{{-1, 0, -2}, {3, top, 5}});
+    REQUIRE(wide.open != nullptr);
+    CHECK(wide.open->axis == 1);
+    CHECK(wide.open->is_max);
+    const proto::BoxDesc below{{0, 0, 0}, {1, top, 0.4}}, above{{0, 0.7, 0}, {1, 0.8, 0.4}};
+    for (const proto::BoxDesc& box : {below, above}) {
+        CHECK(bounds_of(shown(box).block.corners) == box);
+        CHECK(shown(box).open == nullptr);
+    }
+    // Where down is up, the lower end is cut off.
+    stage.cutaway = Cutaway{2, false, 0.1};
+    CHECK(bounds_of(shown({{0, 0, 0}, {1, 1, 1}}).block.corners) == proto::BoxDesc{{0, 0, 0.1}, {1, 1, 1}});
+    CHECK(shown({{0, 0, 0}, {1, 1, 1}}).open->axis == 2);
+    CHECK_FALSE(shown({{0, 0, 0}, {1, 1, 1}}).open->is_max);
 }
 
 TEST_CASE("Stage.ACropFillsThePictureAndHidesTheRest") {
@@ -116,6 +148,54 @@ TEST_CASE("Stage.ACropFillsThePictureAndHidesTheRest") {
     };
     CHECK(seen_at(places[0]) != kPaper);
     CHECK(seen_at(places[1]) == kPaper);
+}
+
+TEST_CASE("Stage.ACropHidesTheRestAtEachZoom") {
+    const proto::SceneDesc scene = high_tank();
+    ViewOptions view;
+    view.crop = proto::BoxDesc{{0.4, 0.1, 0}, {0.8, 0.3, 0}};
+    view.zoom = 0.5;
+    const Stage stage = make_stage(scene, view);
+    const std::vector<Vec3> places{{0.6, 0.2, 0}, {0.6, 0.34, 0}, {0.36, 0.2, 0}};
+    const auto is_drawn = [&](const SceneRenderer& renderer, const Image& image, const Vec3& x) {
+        const Projected p = renderer.camera().project(x);
+        return image.at(static_cast<int>(p.x), static_cast<int>(p.y)) != kPaper;
+    };
+    {
+        const SceneRenderer renderer(scene, stage, {}, 360, 240, kWindow, view);
+        const Image image = renderer.draw(places, std::vector<float>(3), at_rest(scene.objects));
+        CHECK(is_drawn(renderer, image, places[0]));
+        CHECK_FALSE(is_drawn(renderer, image, places[1]));
+        CHECK_FALSE(is_drawn(renderer, image, places[2]));
+        // Half of 320 px wide, and 2 px on each side for the line around it.
+        REQUIRE(renderer.clip());
+        CHECK(renderer.clip()->width == Approx(160 + 4));
+    }
+    // Large, it ends where pictures end.
+    view.zoom = 3;
+    CHECK(SceneRenderer(scene, stage, {}, 360, 240, kWindow, view).clip()->width == Approx(kWindow.width));
+    // With the crop aside of the picture there is nothing, and no harm done.
+    view.target = Vec3{5, 5, 0};
+    const SceneRenderer aside(scene, stage, {}, 360, 240, kWindow, view);
+    const Image image = aside.draw(places, std::vector<float>(3), at_rest(scene.objects));
+    CHECK(std::ranges::count(image.pixels, Image::packed(kPaper)) == 360 * 240);
+}
+
+TEST_CASE("Stage.FramesAreLookedAtOnlyWhereTheyMatter") {
+    ViewOptions corners, scene_view;
+    corners.crop = proto::BoxDesc{{0, 0, 0}, {1, 1, 1}};
+    scene_view.whole = true;
+    proto::SceneDesc scene = tank_scene();
+    CHECK(needed_reach(scene, {}) == Reach::objects_and_fluid);
+    CHECK(needed_reach(scene, scene_view) == Reach::objects);
+    CHECK(needed_reach(scene, corners) == Reach::nothing);
+    // Bowls are not cut open.
+    scene.objects[0].shape = proto::SphereDesc{{0.5, 0.4, 0.2}, 0.5};
+    CHECK(needed_reach(scene, {}) == Reach::objects);
+    // Nothing contains the fluid.
+    scene.objects.clear();
+    CHECK(needed_reach(scene, scene_view) == Reach::objects_and_fluid);
+    CHECK(needed_reach(high_tank(), {}) == Reach::objects_and_fluid);
 }
 
 TEST_CASE("Stage.ZoomKeepsTheMiddleOrTheTarget") {

@@ -256,6 +256,26 @@ TEST_CASE("Writers.UnknownFormatIsRefusedWithAHint") {
         CHECK(make_writer(format.name, options_in(folder)).ok());
 }
 
+// What a failed conversion removes is named after it.
+TEST_CASE("Writers.FramesHaveTheFileWhoseExtensionIsTold") {
+    for (const client::FormatInfo& format : client::writer_formats())
+        for (const bool every_frame : {true, false}) {
+            TemporaryFolder folder;
+            WriterOptions options = options_in(folder);
+            options.picture.every_frame = every_frame;
+            auto writer = make_writer(format.name, options);
+            REQUIRE(writer.ok());
+            const SyntheticFrame frame = small_frame(0);
+            const std::vector<client::PlacedObject> none;
+            REQUIRE((*writer)->prepare({frame.view(), 12, none}).ok());
+            std::vector<std::string> files;
+            for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+                if (entry.path().stem() == "wave_000012") files.push_back(entry.path().extension());
+            const std::string extension((*writer)->frame_extension());
+            CHECK(files == (extension.empty() ? std::vector<std::string>{} : std::vector{"." + extension}));
+        }
+}
+
 TEST_CASE("Writers.UnwritableFolderIsAFileError") {
     TemporaryFolder folder;
     WriterOptions options = options_in(folder);
