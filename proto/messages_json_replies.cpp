@@ -122,10 +122,11 @@ void describe(Visitor& v, SimStatusReply& m) {
     v.optional("strategy", m.strategy,
                {.meaning = "how its pairs are summed: scheme, precision, instruction set; another one may change the "
                            "last bits of a run"});
-    v.optional("threads", m.threads,
-               {.meaning = "threads that its steps take just now: those of the server, or fewer where fewer have turned "
-                           "out to be faster",
-                .unit = "1"});
+    v.optional(
+        "threads", m.threads,
+        {.meaning = "threads that its steps take just now: those of the server, or fewer where fewer have turned "
+                    "out to be faster",
+         .unit = "1"});
     v.required("step", m.step, kStep);
     v.required("time", m.time, kTime);
     v.required("time_step", m.time_step, {.meaning = "of the last step, or of the next before the first", .unit = "s"});
