@@ -231,6 +231,39 @@ TEST_CASE("PairList.BringsBackPrunedPairsThatComeNear") {
     CHECK(across() > 0);
 }
 
+TEST_CASE("PairList.WallsSeeTheFluidThatComesBackIntoReach") {
+    // As above, with a wall instead of the second body: what the fluid's lists get back, the walls' must, too.
+    const int dimensions = GENERATE(2, 3);
+    Points fluid, walls;
+    fluid.dimensions = walls.dimensions = dimensions;
+    for (int k = 0; k < 150; ++k) {
+        const double x = k % 5, y = k / 5 % 5, z = dimensions == 3 ? k / 25 : 0.05 * (k / 25);
+        fluid.add({x, y, z});
+        walls.add({x + 7.2, y, z});  // 3.2 between them
+    }
+    // At rest, in other blocks: most stay pruned, so that nothing is pruned anew.
+    fluid.fill(4000, {-40, 20, 20}, {-10, 60, 25}, 31);
+    fluid.sort();
+    walls.sort();
+    PairNeighboursOf<float> neighbours;
+    neighbours.find(input_of(fluid, &walls));
+    for (std::size_t i = 0; i < fluid.size(); ++i) fluid.x[0][i] += fluid.x[1][i] < 10.0 ? 0.28 : 0.0;
+    REQUIRE(neighbours.move_fluid(fluid.x, fluid.V.data()));
+    const auto there = listed_pairs(neighbours.fluid_to_wall(), neighbours.fluid(), neighbours.walls());
+    const auto back = listed_pairs(neighbours.wall_to_fluid(), neighbours.walls(), neighbours.fluid());
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        for (std::size_t w = 0; w < walls.size(); ++w) {
+            double r2 = 0.0;
+            for (int k = 0; k < dimensions; ++k) r2 += std::pow(fluid.x[k][i] - walls.x[k][w], 2);
+            expected += r2 < kSupport * kSupport;
+        }
+    }
+    CHECK(expected > 0);
+    CHECK(there.size() == expected);
+    CHECK(back.size() == expected);
+}
+
 TEST_CASE("PairList.TellsWhenOneFastPointCouldCloseIn") {
     Points points;
     points.dimensions = 2;
