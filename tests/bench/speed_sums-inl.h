@@ -30,6 +30,7 @@ template <int D>
 class ClusterSums final : public PlainSums {
   public:
     void compute(PlainFluid& fluid, StageSeconds& seconds) override {
+        ++computes_;
         StageClock clock;
         const bool covers = has_lists_ && neighbours_.move_fluid(fluid.x, fluid.V);
         seconds.list += clock.lap();
@@ -60,6 +61,8 @@ class ClusterSums final : public PlainSums {
         seconds.pair += clock.lap();
     }
 
+    ~ClusterSums() override { std::fprintf(stderr, "sorts %ld computes %ld listed %g\n", sorts_, computes_, candidates()); }
+    long computes_{};
     double candidates() const override { return neighbours_.neighbours_per_particle(); }
     long sorts() const override { return sorts_; }
 

@@ -14,6 +14,15 @@ constexpr double kRowWidth3d = 1.8, kRowWidth2d = 2.0, kBinLength3d = 0.4, kBinL
 // below share of their surroundings is still in the cache then. A whole layer of 10^7 points would not be.
 constexpr std::int64_t kStrip = 16;
 
+// Rows of a bundle along y and z, and bins along it in which clusters stand in the order of their rows: sixteen clusters
+// in a row are about as long as wide.
+constexpr std::int64_t kBundleRows2d = 4, kBundleRows3d = 2, kBundleBins = 2;
+static_assert(kStrip % kBundleRows2d == 0 && kStrip % kBundleRows3d == 0);
+
+std::int64_t floor_divide(std::int64_t a, std::int64_t by) {
+    return a / by - (a % by < 0);
+}
+
 }  // namespace
 
 void ClusterOrder::build(const VectorField& x, const std::vector<Index>& id, int dimensions, double spacing,
@@ -22,13 +31,14 @@ void ClusterOrder::build(const VectorField& x, const std::vector<Index>& id, int
     divide(spacing, domain);
     count_ = id.size();
     order_.resize(count_);
-    bin_of_slot_.clear();
+    bin_of_point_.clear();
     measure(x, id.size());
     if (is_dense_) {
         order_dense(x, id);
     } else {
         order_sparse(x, id);
     }
+    store_in_bundles(x);
 }
 
 // Along a periodic axis whole bins fill the period.
@@ -157,20 +167,83 @@ void ClusterOrder::order_sparse(const VectorField& x, const std::vector<Index>& 
     }
     std::sort(order_.begin(), order_.end(),
               [&](Index a, Index b) { return bin_of[a] != bin_of[b] ? bin_of[a] < bin_of[b] : id[a] < id[b]; });
-    bin_of_slot_.resize(count);
-    for (std::size_t slot = 0; slot < count; ++slot) bin_of_slot_[slot] = bin_of[order_[slot]];
+    bin_of_point_.resize(count);
+    for (std::size_t point = 0; point < count; ++point) bin_of_point_[point] = bin_of[order_[point]];
 }
 
-SlotRun ClusterOrder::find_run(std::int64_t z, std::int64_t y, std::int64_t first, std::int64_t last) const {
+ClusterOrder::Bin ClusterOrder::bundle_of(const Bin& first, const Bin& last) const {
+    const std::int64_t rows = dimensions_ == 3 ? kBundleRows3d : kBundleRows2d;
+    return {floor_divide(first[0] - lowest_[0], dimensions_ == 3 ? rows : 1), floor_divide(first[1] - lowest_[1], rows),
+            floor_divide(first[2] - lowest_[2] + last[2] - lowest_[2], 2 * kBundleBins)};
+}
+
+std::size_t ClusterOrder::bundle_number_of(const Bin& bundle) const {
+    const auto [z, y, x] = bundle;
+    const Bin end = bundle_of(highest_, highest_);
+    const std::int64_t width = kStrip / (dimensions_ == 3 ? kBundleRows3d : kBundleRows2d), strip = y / width;
+    const std::int64_t first = strip * width, last = std::min(first + width - 1, end[1]), layers = end[0] + 1;
+    const std::int64_t layer = (strip & 1) != 0 ? end[0] - z : z;
+    const std::int64_t row = (z & 1) != 0 ? last - y : y - first;
+    const std::int64_t bundles_before = first * layers + layer * (last - first + 1) + row;
+    const std::int64_t place = ((z + y) & 1) != 0 ? end[2] - x : x;
+    return static_cast<std::size_t>(bundles_before * (end[2] + 1) + place);
+}
+
+// The last cluster stays the last, since it may have fewer points.
+void ClusterOrder::store_in_bundles(const VectorField& x) {
+    cluster_at_.resize(clusters());
+    if (count_ == 0) return;
+    cluster_at_.back() = static_cast<Index>(clusters() - 1);
+    std::vector<Bin> bundles(clusters() - 1);
+    parallel_for(bundles.size(), kParticleBlock, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t c = first; c < last; ++c) {
+            const Index* of_cluster = &order_[c * kClusterSize];
+            bundles[c] = bundle_of(find_bin(x, of_cluster[0]), find_bin(x, of_cluster[kClusterSize - 1]));
+        }
+    });
+    if (is_dense_) {
+        place_dense(bundles);
+    } else {
+        place_sparse(bundles);
+    }
+    std::vector<Index> along_rows(order_.begin(), order_.end());
+    parallel_for(bundles.size(), kParticleBlock, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t c = first; c < last; ++c)
+            std::copy_n(&along_rows[c * kClusterSize], kClusterSize, &order_[cluster_at_[c] * kClusterSize]);
+    });
+}
+
+void ClusterOrder::place_dense(const std::vector<Bin>& bundles) {
+    std::vector<Index> number(bundles.size());
+    parallel_for(bundles.size(), kParticleBlock, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t c = first; c < last; ++c) number[c] = static_cast<Index>(bundle_number_of(bundles[c]));
+    });
+    const Bin end = bundle_of(highest_, highest_);
+    std::vector<Index> next(static_cast<std::size_t>((end[0] + 1) * (end[1] + 1) * (end[2] + 1)) + 1, 0);
+    for (const Index n : number) ++next[n + 1];
+    for (std::size_t n = 1; n < next.size(); ++n) next[n] += next[n - 1];
+    for (std::size_t c = 0; c < number.size(); ++c) cluster_at_[c] = next[number[c]]++;
+}
+
+void ClusterOrder::place_sparse(const std::vector<Bin>& bundles) {
+    std::vector<Index> clusters(bundles.size());
+    for (std::size_t c = 0; c < clusters.size(); ++c) clusters[c] = static_cast<Index>(c);
+    std::stable_sort(clusters.begin(), clusters.end(), [&](Index a, Index b) {
+        return in_walking_order(bundles[a]) < in_walking_order(bundles[b]);
+    });
+    for (std::size_t place = 0; place < clusters.size(); ++place) cluster_at_[clusters[place]] = static_cast<Index>(place);
+}
+
+RowRun ClusterOrder::find_run(std::int64_t z, std::int64_t y, std::int64_t first, std::int64_t last) const {
     first = std::max(first, lowest_[2]);
     last = std::min(last, highest_[2]);
     if (first > last) return {};
     const bool goes_back = ((z + y) & 1) != 0;
     const Bin from{z, y, goes_back ? last : first}, to{z, y, goes_back ? first : last};
     if (is_dense_) return {start_[number_of(from)], start_[number_of(to) + 1], {}};
-    const auto slot = [&](auto found) { return static_cast<Index>(found - bin_of_slot_.begin()); };
-    return {slot(std::lower_bound(bin_of_slot_.begin(), bin_of_slot_.end(), in_walking_order(from))),
-            slot(std::upper_bound(bin_of_slot_.begin(), bin_of_slot_.end(), in_walking_order(to))),
+    const auto number = [&](auto found) { return static_cast<Index>(found - bin_of_point_.begin()); };
+    return {number(std::lower_bound(bin_of_point_.begin(), bin_of_point_.end(), in_walking_order(from))),
+            number(std::upper_bound(bin_of_point_.begin(), bin_of_point_.end(), in_walking_order(to))),
             {}};
 }
 

@@ -3,8 +3,9 @@
 // Space is divided into rows of square cross-section, about as wide as the edge of a cube of four points, and each row
 // into bins about a quarter of that long. Points are sorted by row and bin; every four of them are a cluster. Rows are
 // walked through to and fro, so that a cluster at a row's end has its other points in the next row's near end.
-// Dense layout: rows are taken strip by strip, each strip layer by layer, so that what is near in space is near in
-// memory however large the whole is.
+// Clusters are stored in bundles of neighbouring rows, in a bundle by their place along it: some that stand in a row are
+// as compact a body as a few can be, which moves together and has few neighbours. Dense layout: bundles are taken strip
+// by strip, each strip layer by layer, so that what is near in space is near in memory however large the whole is.
 //
 // Within a bin points stand in the order of their ids: the order is a function of places and ids alone.
 //
@@ -26,8 +27,8 @@ namespace headrace::solver {
 
 inline constexpr std::size_t kClusterSize = 4;
 
-// Slots [begin, end) of the storage order, displaced by image[axis] periods.
-struct SlotRun {
+// Points [begin, end) as they follow one another along the rows, displaced by image[axis] periods.
+struct RowRun {
     Index begin{};
     Index end{};
     std::array<int, 3> image{};
@@ -49,7 +50,14 @@ class ClusterOrder {
     std::size_t size() const { return count_; }
     std::size_t clusters() const { return (size() + kClusterSize - 1) / kClusterSize; }
 
-    // visit(run) for runs of slots that together hold all points within `reach` of the box [low, high], periodic images
+    // Where the points are stored that are a cluster along the rows, the one of this number.
+    Index cluster_at(Index along_rows) const { return cluster_at_[along_rows]; }
+    // The same of one point.
+    Index slot_at(Index along_rows) const {
+        return cluster_at(along_rows / kClusterSize) * static_cast<Index>(kClusterSize) + along_rows % kClusterSize;
+    }
+
+    // visit(run) for runs of points that together hold all points within `reach` of the box [low, high], periodic images
     // included, and some others. All runs of one image come in a row.
     template <class Visit>
     void for_each_run(const Vec3& low, const Vec3& high, double reach, Visit&& visit) const;
@@ -76,8 +84,14 @@ class ClusterOrder {
     void measure(const VectorField& x, std::size_t count);
     void order_dense(const VectorField& x, const std::vector<Index>& id);
     void order_sparse(const VectorField& x, const std::vector<Index>& id);
-    // Slots of the bins first..last of a row.
-    SlotRun find_run(std::int64_t z, std::int64_t y, std::int64_t first, std::int64_t last) const;
+    // What a cluster that lies between two bins is stored by: bundle and place along it.
+    Bin bundle_of(const Bin& first, const Bin& last) const;
+    std::size_t bundle_number_of(const Bin& bundle) const;
+    void store_in_bundles(const VectorField& x);
+    void place_dense(const std::vector<Bin>& bundles);
+    void place_sparse(const std::vector<Bin>& bundles);
+    // The points in the bins first..last of a row.
+    RowRun find_run(std::int64_t z, std::int64_t y, std::int64_t first, std::int64_t last) const;
 
     int dimensions_{3};
     std::array<double, 3> side_{}, inv_side_{}, origin_{};  // [m], [1/m], [m] by axis
@@ -85,11 +99,12 @@ class ClusterOrder {
     std::array<std::int64_t, 3> bins_in_period_{};
     Bin lowest_{}, highest_{};  // of the occupied bins
     bool is_dense_{true};
-    std::size_t row_{}, layer_{};   // bins from one row, one layer to the next
-    std::size_t count_{};           // points
-    std::vector<Index> start_;      // dense: [bins + 1]
-    std::vector<Bin> bin_of_slot_;  // sparse: in walking order
-    std::vector<Index> order_;      // [count] old slot of the point that belongs into this slot, for permute()
+    std::size_t row_{}, layer_{};    // bins from one row, one layer to the next
+    std::size_t count_{};            // points
+    std::vector<Index> start_;       // dense: [bins + 1]
+    std::vector<Bin> bin_of_point_;  // sparse: along the rows, in walking order
+    std::vector<Index> cluster_at_;  // [clusters]
+    std::vector<Index> order_;       // [count] old slot of the point that belongs into this slot, for permute()
 };
 
 template <class T>
@@ -136,7 +151,7 @@ void ClusterOrder::for_each_run(const Vec3& low, const Vec3& high, double reach,
                         const double left2 = reach * reach - gap_z * gap_z - gap_y * gap_y;
                         if (left2 < 0.0) continue;
                         const double left = std::sqrt(left2);
-                        SlotRun run = find_run(z - shift_z, y - shift_y, coordinate(low[0] - left, 0) - shift_x,
+                        RowRun run = find_run(z - shift_z, y - shift_y, coordinate(low[0] - left, 0) - shift_x,
                                                coordinate(high[0] + left, 0) - shift_x);
                         if (run.begin == run.end) continue;
                         run.image = image;

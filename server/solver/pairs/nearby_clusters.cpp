@@ -91,14 +91,15 @@ void NearbyClusters<S>::collect(std::size_t first, std::size_t end, const Extent
     Index page = 0, way = ~Index{0};  // of that key, page and image
     ++look_;
     for_each_run_near(*setting_.order, *setting_.x, centres.dimensions(), begin, end_point, extent, setting_.reach,
-                      [&](const SlotRun& run) {
+                      [&](const RowRun& run) {
                           if (run.image != image) {
                               ++look_;
                               image = run.image;
                               way = ~Index{0};
                           }
                           const Index last = (run.end - 1) / kClusterSize;
-                          for (Index j = run.begin / kClusterSize; j <= last; ++j) {
+                          for (Index n = run.begin / kClusterSize; n <= last; ++n) {
+                              const Index j = setting_.order->cluster_at(n);
                               if (stamp_[j] == look_) continue;
                               stamp_[j] = look_;
                               // Those of a row are in few cubes.

@@ -261,8 +261,9 @@ void PairList<S>::list_nearby(PairBlock<S>& block, const VectorField& x, int dim
     Extent extent = scratch.extents[0];
     for (std::size_t c = 1; c < clusters; ++c) extent = join(extent, scratch.extents[c]);
     const auto look = static_cast<Index>(begin / kSlots + 1);
-    for_each_run_near(order, x, dimensions, begin, end, extent, reach, [&](const SlotRun& run) {
-        for (Index j = run.begin / kSlots; j <= (run.end - 1) / kSlots; ++j) {
+    for_each_run_near(order, x, dimensions, begin, end, extent, reach, [&](const RowRun& run) {
+        for (Index n = run.begin / kClusterSize; n <= (run.end - 1) / kClusterSize; ++n) {
+            const auto j = static_cast<Index>(order.cluster_at(n) / kMotionBlock);
             if (std::exchange(scratch.stamp[j], look) != look) scratch.nearby.push_back(j);
         }
     });

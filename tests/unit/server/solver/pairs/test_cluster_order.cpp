@@ -48,8 +48,9 @@ TEST_CASE("ClusterOrder.RunsHoldAllPointsWithinReachOfABox") {
     std::size_t near = 0;
     for (std::size_t i = 0; i < points.size(); i += 7) {
         std::set<std::size_t> found;
-        points.order.for_each_run(points.at(i), points.at(i), reach, [&](const SlotRun& run) {
-            for (Index j = run.begin; j < run.end; ++j) {
+        points.order.for_each_run(points.at(i), points.at(i), reach, [&](const RowRun& run) {
+            for (Index n = run.begin; n < run.end; ++n) {
+                const Index j = points.order.slot_at(n);
                 double r2 = 0.0;
                 for (int k = 0; k < dimensions; ++k) {
                     const double d = points.x[k][i] - points.x[k][j] - run.image[k] * points.period()[k];
