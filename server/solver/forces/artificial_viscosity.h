@@ -17,7 +17,7 @@ namespace headrace::solver {
 // pi_ij: finite at r = 0, where the approach v_ij . x_ij vanishes with r^2.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T approach_rate(const Pair<D, T>& pair, const T& approach) {
-    return approach / maximum(pair.r2, tiny<T>());
+    return approach / (pair.r2 + tiny<T>());
 }
 
 // sum_of_strains = S_i + S_j; Monaghan's form: 0.

@@ -123,11 +123,12 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     bool needs_visibility = false;
     for (std::size_t c = first; c < last && !block.nearby.empty();) {
         const std::size_t end = scratch.clusters.find(c, last, &scratch.extents[c - first]);
+        scratch.forget_ways_from();  // those found are others
         for (; c < end; ++c) {
             block.first_group[c - first] = static_cast<Index>(scratch.groups.size());
             if (options.visibility != nullptr)
                 needs_visibility |= options.visibility->is_needed_near(scratch.extents[c - first].low);
-            list_near(scratch, c);
+            list_near(scratch, c, centres.reference(c));
         }
     }
     for (std::size_t c = last - first; c <= kMotionBlock; ++c)
@@ -167,16 +168,31 @@ Index PairList<S>::Scratch::way_number(const PairWay<S>& way) {
     return next_way - 1;
 }
 
+template <class S>
+std::vector<Index>& PairList<S>::Scratch::way_numbers_from(const std::array<std::int32_t, 3>& reference,
+                                                           std::size_t count) {
+    for (std::size_t r = 0; r < references; ++r) {
+        if (ways_from[r].reference == reference) return ways_from[r].numbers;
+    }
+    if (references == ways_from.size()) ways_from.emplace_back();
+    WaysFrom& from = ways_from[references++];
+    from.reference = reference;
+    from.numbers.assign(count, kNone);
+    return from.numbers;
+}
+
 // Entries on one way are a group.
 template <class S>
-void PairList<S>::list_near(Scratch& scratch, std::size_t centre) {
+void PairList<S>::list_near(Scratch& scratch, std::size_t centre, const std::array<std::int32_t, 3>& reference) {
     const auto near = scratch.clusters.near(centre);
+    std::vector<Index>& numbers = scratch.way_numbers_from(reference, near.way_count);
     const auto base = static_cast<Index>(scratch.entries.size());
     Index begin = 0;
     for (std::size_t w = 0; w < near.way_count; ++w) {
         const Index end = near.end_of_way[w];
         if (end > begin) {
-            scratch.groups.push_back({base + begin, base + end, scratch.way_number(near.ways[w].way)});
+            if (numbers[w] == Scratch::kNone) numbers[w] = scratch.way_number(near.ways[w].way);
+            scratch.groups.push_back({base + begin, base + end, numbers[w]});
         }
         begin = end;
     }

@@ -101,6 +101,8 @@ class PairList {
 
   private:
     struct Scratch {
+        static constexpr Index kNone = ~Index{0};
+
         NearbyClusters<S> clusters;
         std::array<Extent, kMotionBlock> extents;  // of the block's clusters
         std::vector<Index> stamp;                  // of each block of neighbours: the last block that looked at it
@@ -108,11 +110,20 @@ class PairList {
         std::vector<PairWay<S>> ways;
         std::vector<PairEntry> entries, far;
         std::vector<Index> nearby, ways_of_centre;
+        // The numbers of the ways from one reference point of centres; kNone: not asked for yet.
+        struct WaysFrom {
+            std::array<std::int32_t, 3> reference{};
+            std::vector<Index> numbers;
+        };
+        std::vector<WaysFrom> ways_from;
+        std::size_t references{};  // in use
         Index next_way{};
         std::vector<std::uint16_t> far_seen;
 
         // The number of this way of the block.
         Index way_number(const PairWay<S>& way);
+        std::vector<Index>& way_numbers_from(const std::array<std::int32_t, 3>& reference, std::size_t count);
+        void forget_ways_from() { references = 0; }
         void start_block();
         // Writes the block's lists.
         void finish_block(PairBlock<S>& block, bool needs_visibility);
@@ -126,7 +137,7 @@ class PairList {
                                 Scratch& scratch);
     void build_block(std::size_t block, const ClusterPoints<S>& centres, const VectorField& x,
                      const ClusterOrder& order, const ReachOptions& options, Scratch& scratch);
-    static void list_near(Scratch& scratch, std::size_t centre);
+    static void list_near(Scratch& scratch, std::size_t centre, const std::array<std::int32_t, 3>& reference);
     void list_nearby(PairBlock<S>& block, const VectorField& x, int dimensions, std::size_t begin, std::size_t end,
                      const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) const;
 
