@@ -14,8 +14,8 @@ constexpr double kRowWidth3d = 1.8, kRowWidth2d = 2.0, kBinLength3d = 0.4, kBinL
 // below share of their surroundings is still in the cache then. A whole layer of 10^7 points would not be.
 constexpr std::int64_t kStrip = 16;
 
-// Rows of a bundle along y and z, and bins along it in which clusters stand in the order of their rows: sixteen clusters
-// in a row are about as long as wide.
+// Rows of a bundle along y and z, and bins along it in which clusters stand in the order of their rows: sixteen
+// clusters in a row are about as long as wide.
 constexpr std::int64_t kBundleRows2d = 4, kBundleRows3d = 2, kBundleBins = 2;
 static_assert(kStrip % kBundleRows2d == 0 && kStrip % kBundleRows3d == 0);
 
@@ -228,10 +228,10 @@ void ClusterOrder::place_dense(const std::vector<Bin>& bundles) {
 void ClusterOrder::place_sparse(const std::vector<Bin>& bundles) {
     std::vector<Index> clusters(bundles.size());
     for (std::size_t c = 0; c < clusters.size(); ++c) clusters[c] = static_cast<Index>(c);
-    std::stable_sort(clusters.begin(), clusters.end(), [&](Index a, Index b) {
-        return in_walking_order(bundles[a]) < in_walking_order(bundles[b]);
-    });
-    for (std::size_t place = 0; place < clusters.size(); ++place) cluster_at_[clusters[place]] = static_cast<Index>(place);
+    std::stable_sort(clusters.begin(), clusters.end(),
+                     [&](Index a, Index b) { return in_walking_order(bundles[a]) < in_walking_order(bundles[b]); });
+    for (std::size_t place = 0; place < clusters.size(); ++place)
+        cluster_at_[clusters[place]] = static_cast<Index>(place);
 }
 
 RowRun ClusterOrder::find_run(std::int64_t z, std::int64_t y, std::int64_t first, std::int64_t last) const {

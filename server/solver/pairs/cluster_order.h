@@ -3,9 +3,10 @@
 // Space is divided into rows of square cross-section, about as wide as the edge of a cube of four points, and each row
 // into bins about a quarter of that long. Points are sorted by row and bin; every four of them are a cluster. Rows are
 // walked through to and fro, so that a cluster at a row's end has its other points in the next row's near end.
-// Clusters are stored in bundles of neighbouring rows, in a bundle by their place along it: some that stand in a row are
-// as compact a body as a few can be, which moves together and has few neighbours. Dense layout: bundles are taken strip
-// by strip, each strip layer by layer, so that what is near in space is near in memory however large the whole is.
+// Clusters are stored in bundles of neighbouring rows, in a bundle by their place along it: some that stand in a row
+// are as compact a body as a few can be, which moves together and has few neighbours. Dense layout: bundles are taken
+// strip by strip, each strip layer by layer, so that what is near in space is near in memory however large the whole
+// is.
 //
 // Within a bin points stand in the order of their ids: the order is a function of places and ids alone.
 //
@@ -57,8 +58,8 @@ class ClusterOrder {
         return cluster_at(along_rows / kClusterSize) * static_cast<Index>(kClusterSize) + along_rows % kClusterSize;
     }
 
-    // visit(run) for runs of points that together hold all points within `reach` of the box [low, high], periodic images
-    // included, and some others. All runs of one image come in a row.
+    // visit(run) for runs of points that together hold all points within `reach` of the box [low, high], periodic
+    // images included, and some others. All runs of one image come in a row.
     template <class Visit>
     void for_each_run(const Vec3& low, const Vec3& high, double reach, Visit&& visit) const;
 
@@ -152,7 +153,7 @@ void ClusterOrder::for_each_run(const Vec3& low, const Vec3& high, double reach,
                         if (left2 < 0.0) continue;
                         const double left = std::sqrt(left2);
                         RowRun run = find_run(z - shift_z, y - shift_y, coordinate(low[0] - left, 0) - shift_x,
-                                               coordinate(high[0] + left, 0) - shift_x);
+                                              coordinate(high[0] + left, 0) - shift_x);
                         if (run.begin == run.end) continue;
                         run.image = image;
                         visit(run);

@@ -279,7 +279,6 @@ void Wcsph::compute_state(Particles& particles, double dt, double drift) {
 }
 
 void Wcsph::compute_pressure_forces(Particles& particles, const Surroundings& surroundings) {
-    compute_state(particles, 0.0, 0.0);
     find_neighbours(particles, surroundings);
     if (!walls_.is_empty()) {
         timed(kWalls, [&] { sums_->wall_pressure(data(particles), {least_wall_pressure(), p_.gravity}); });
