@@ -90,7 +90,7 @@ class Wcsph final : public Model {
     // Ways [spacings] that lists reach beyond the support, when they are made and when they are pruned. The longer, the
     // rarer that is done and the more pairs out of reach the loops meet. Skins of 0.4 to 1.2 and inner ones of 0.05 to
     // 0.3 were tried in dam breaks: those around these are within 3 % of each other.
-    double skin() const { return dimensions_ == 2 ? 1.0 : 0.6; }
+    double skin() const { return dimensions_ == 2 ? 0.8 : 0.6; }
     double inner_skin() const { return dimensions_ == 2 ? 0.3 : 0.2; }
 
     template <class Work>
