@@ -90,7 +90,7 @@ class Wcsph final : public Model {
     // Ways [spacings] that lists reach beyond the support, when they are made and when they are pruned. The longer, the
     // rarer that is done and the more pairs out of reach the loops meet. Skins of 0.4 to 1.2 and inner ones of 0.05 to
     // 0.3 were tried in dam breaks: those around these are within 3 % of each other.
-    double skin() const { return dimensions_ == 2 ? 0.8 : 0.6; }
+    double skin() const { return dimensions_ == 2 ? 1.0 : 0.6; }
     double inner_skin() const { return dimensions_ == 2 ? 0.3 : 0.2; }
 
     template <class Work>
@@ -101,8 +101,9 @@ class Wcsph final : public Model {
     }
 
     double h() const { return 0.5 * support_; }
-    // Two particles see each other under one image only while a period is longer than twice this.
-    double period_unit() const { return support_ + skin() * spacing_; }
+    // Periods are three times as long, at least: two particles see each other under one image only while a period is
+    // longer than twice what the lists reach.
+    double period_unit() const { return support_ + (dimensions_ == 2 ? 0.8 : 0.6) * spacing_; }
     // alpha h c0 rho0 [Pa s], less what the fluid's own viscosity does for it: alpha h c0 equals a kinematic viscosity
     // alpha h c0/(2 (D + 2)).
     double artificial_viscosity() const {
