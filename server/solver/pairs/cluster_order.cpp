@@ -19,8 +19,13 @@ constexpr std::int64_t kStrip = 16;
 constexpr std::int64_t kBundleRows2d = 4, kBundleRows3d = 2, kBundleBins = 2;
 static_assert(kStrip % kBundleRows2d == 0 && kStrip % kBundleRows3d == 0);
 
-std::int64_t floor_divide(std::int64_t a, std::int64_t by) {
-    return a / by - (a % by < 0);
+// How many rows come before the one in this layer, strip by strip of so many rows, each layer by layer, to and fro.
+// goes_back: does the layer?
+std::int64_t rows_before(std::int64_t layer, std::int64_t row, std::int64_t layers, std::int64_t rows,
+                         std::int64_t strip_rows, bool goes_back) {
+    const std::int64_t strip = row / strip_rows, first = strip * strip_rows, end = std::min(first + strip_rows, rows);
+    const std::int64_t layers_before = (strip & 1) != 0 ? layers - 1 - layer : layer;
+    return first * layers + layers_before * (end - first) + (goes_back ? end - 1 - row : row - first);
 }
 
 }  // namespace
@@ -78,13 +83,10 @@ ClusterOrder::Bin ClusterOrder::in_walking_order(const Bin& bin) {
 
 std::size_t ClusterOrder::number_of(const Bin& bin) const {
     const auto [z, y, x] = bin;
-    const std::int64_t strip = (y - lowest_[1]) / kStrip, first = lowest_[1] + strip * kStrip;
-    const std::int64_t last = std::min(first + kStrip - 1, highest_[1]), layers = highest_[0] - lowest_[0] + 1;
-    const std::int64_t layer = (strip & 1) != 0 ? highest_[0] - z : z - lowest_[0];
-    const std::int64_t row = (z & 1) != 0 ? last - y : y - first;
-    const std::int64_t rows_before = strip * kStrip * layers + layer * (last - first + 1) + row;
+    const std::int64_t before = rows_before(z - lowest_[0], y - lowest_[1], highest_[0] - lowest_[0] + 1,
+                                            highest_[1] - lowest_[1] + 1, kStrip, (z & 1) != 0);
     const std::int64_t place = ((z + y) & 1) != 0 ? highest_[2] - x : x - lowest_[2];
-    return row_ * static_cast<std::size_t>(rows_before) + static_cast<std::size_t>(place);
+    return row_ * static_cast<std::size_t>(before) + static_cast<std::size_t>(place);
 }
 
 // The box of bins that the points occupy, and which layout it allows.
@@ -172,21 +174,10 @@ void ClusterOrder::order_sparse(const VectorField& x, const std::vector<Index>& 
 }
 
 ClusterOrder::Bin ClusterOrder::bundle_of(const Bin& first, const Bin& last) const {
-    const std::int64_t rows = dimensions_ == 3 ? kBundleRows3d : kBundleRows2d;
-    return {floor_divide(first[0] - lowest_[0], dimensions_ == 3 ? rows : 1), floor_divide(first[1] - lowest_[1], rows),
-            floor_divide(first[2] - lowest_[2] + last[2] - lowest_[2], 2 * kBundleBins)};
-}
-
-std::size_t ClusterOrder::bundle_number_of(const Bin& bundle) const {
-    const auto [z, y, x] = bundle;
-    const Bin end = bundle_of(highest_, highest_);
-    const std::int64_t width = kStrip / (dimensions_ == 3 ? kBundleRows3d : kBundleRows2d), strip = y / width;
-    const std::int64_t first = strip * width, last = std::min(first + width - 1, end[1]), layers = end[0] + 1;
-    const std::int64_t layer = (strip & 1) != 0 ? end[0] - z : z;
-    const std::int64_t row = (z & 1) != 0 ? last - y : y - first;
-    const std::int64_t bundles_before = first * layers + layer * (last - first + 1) + row;
-    const std::int64_t place = ((z + y) & 1) != 0 ? end[2] - x : x;
-    return static_cast<std::size_t>(bundles_before * (end[2] + 1) + place);
+    const bool is_3d = dimensions_ == 3;
+    return {(first[0] - lowest_[0]) / (is_3d ? kBundleRows3d : 1),
+            (first[1] - lowest_[1]) / (is_3d ? kBundleRows3d : kBundleRows2d),
+            (first[2] - lowest_[2] + last[2] - lowest_[2]) / (2 * kBundleBins)};
 }
 
 // The last cluster stays the last, since it may have fewer points.
@@ -213,13 +204,20 @@ void ClusterOrder::store_in_bundles(const VectorField& x) {
     });
 }
 
+// Counting sort; those of the same number stay in their order.
 void ClusterOrder::place_dense(const std::vector<Bin>& bundles) {
+    const Bin highest = bundle_of(highest_, highest_);
+    const std::int64_t layers = highest[0] + 1, rows = highest[1] + 1, length = highest[2] + 1;
+    const std::int64_t strip_rows = kStrip / (dimensions_ == 3 ? kBundleRows3d : kBundleRows2d);
     std::vector<Index> number(bundles.size());
     parallel_for(bundles.size(), kParticleBlock, [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t c = first; c < last; ++c) number[c] = static_cast<Index>(bundle_number_of(bundles[c]));
+        for (std::size_t c = first; c < last; ++c) {
+            const auto [z, y, x] = bundles[c];
+            const std::int64_t before = rows_before(z, y, layers, rows, strip_rows, (z & 1) != 0);
+            number[c] = static_cast<Index>(before * length + (((z + y) & 1) != 0 ? length - 1 - x : x));
+        }
     });
-    const Bin end = bundle_of(highest_, highest_);
-    std::vector<Index> next(static_cast<std::size_t>((end[0] + 1) * (end[1] + 1) * (end[2] + 1)) + 1, 0);
+    std::vector<Index> next(static_cast<std::size_t>(layers * rows * length) + 1, 0);
     for (const Index n : number) ++next[n + 1];
     for (std::size_t n = 1; n < next.size(); ++n) next[n] += next[n - 1];
     for (std::size_t c = 0; c < number.size(); ++c) cluster_at_[c] = next[number[c]]++;

@@ -85,9 +85,8 @@ class ClusterOrder {
     void measure(const VectorField& x, std::size_t count);
     void order_dense(const VectorField& x, const std::vector<Index>& id);
     void order_sparse(const VectorField& x, const std::vector<Index>& id);
-    // What a cluster that lies between two bins is stored by: bundle and place along it.
+    // What a cluster is stored by whose points are in the bins first to last: bundle and place along it.
     Bin bundle_of(const Bin& first, const Bin& last) const;
-    std::size_t bundle_number_of(const Bin& bundle) const;
     void store_in_bundles(const VectorField& x);
     void place_dense(const std::vector<Bin>& bundles);
     void place_sparse(const std::vector<Bin>& bundles);

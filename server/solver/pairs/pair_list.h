@@ -102,6 +102,11 @@ class PairList {
   private:
     struct Scratch {
         static constexpr Index kNone = ~Index{0};
+        // The numbers of the ways from one reference point of centres; kNone: not asked for yet.
+        struct WaysFrom {
+            std::array<std::int32_t, 3> reference{};
+            std::vector<Index> numbers;
+        };
 
         NearbyClusters<S> clusters;
         std::array<Extent, kMotionBlock> extents;  // of the block's clusters
@@ -110,11 +115,6 @@ class PairList {
         std::vector<PairWay<S>> ways;
         std::vector<PairEntry> entries, far;
         std::vector<Index> nearby, ways_of_centre;
-        // The numbers of the ways from one reference point of centres; kNone: not asked for yet.
-        struct WaysFrom {
-            std::array<std::int32_t, 3> reference{};
-            std::vector<Index> numbers;
-        };
         std::vector<WaysFrom> ways_from;
         std::size_t references{};  // in use
         Index next_way{};
