@@ -58,6 +58,8 @@ class ClusterOrder {
         return cluster_at(along_rows / kClusterSize) * static_cast<Index>(kClusterSize) + along_rows % kClusterSize;
     }
 
+    bool is_periodic() const { return period_ != std::array<double, 3>{}; }  // along any axis
+
     // visit(run) for runs of points that together hold all points within `reach` of the box [low, high], periodic
     // images included, and some others. All runs of one image come in a row.
     template <class Visit>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "server/solver/pairs/mend_block.h"
 #include "server/solver/pairs/reach_filter.h"
 #include "server/solver/parallel.h"
 
@@ -16,6 +17,9 @@ constexpr double kFarSkins = 3.0;
 
 // Pruning is due when one of so many blocks sees all of its entries.
 constexpr std::size_t kMostWhole = 8;
+
+// A new list is due when one of so many blocks is to be mended.
+constexpr std::size_t kMostOpen = 8;
 
 // Relative places are rounded: the reach is longer by this share.
 constexpr double kRounding = 4e-6;
@@ -92,6 +96,7 @@ void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, c
     skin_ = options.skin;
     inner_skin_ = std::min(options.inner_skin, options.skin);
     far_skin_ = kFarSkins * options.skin;
+    can_mend_ = &centres == &neighbours && !order.is_periodic() && options.visibility == nullptr;
     const std::size_t count = (centres.clusters() + kMotionBlock - 1) / kMotionBlock;
     blocks_.resize(count);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
@@ -334,29 +339,37 @@ Coverage PairList<S>::cover(const ClusterPoints<S>& centres, const ClusterPoints
     recent.measure_radii();
     struct Found {
         bool is_lost{};
-        std::size_t whole_blocks{};
+        std::size_t whole_blocks{}, open_blocks{};
     };
+    // Halfway into the skin: not in every step anew.
+    const double reach = (support_ + 0.5 * skin_) * (1.0 + kRounding);
+    const std::size_t most_open = can_mend_ ? blocks_.size() / kMostOpen : 0;
     const Found found = parallel_reduce(
         blocks_.size(), Found{},
         [&](std::size_t first, std::size_t last) {
             Found here;
+            std::vector<Index> open;
             for (std::size_t b = first; b < last; ++b) {
                 PairBlock<S>& block = blocks_[b];
+                open.clear();
                 for (const Index j : block.nearby) {
-                    if (total.is_longer(b, j, skin_)) {
-                        here.is_lost = true;
-                        return here;
-                    }
+                    if (total.is_longer(b, j, skin_)) open.push_back(j);
                     if (!block.is_whole && recent.is_longer(b, j, inner_skin_)) block.bring_back();
                 }
                 here.whole_blocks += block.is_whole;
+                if (open.empty()) continue;
+                if (++here.open_blocks > most_open) {
+                    here.is_lost = true;
+                    return here;
+                }
+                mend_block(block, b, centres, neighbours, open, reach);
             }
             return here;
         },
         [](Found a, const Found& b) {
-            return Found{a.is_lost || b.is_lost, a.whole_blocks + b.whole_blocks};
+            return Found{a.is_lost || b.is_lost, a.whole_blocks + b.whole_blocks, a.open_blocks + b.open_blocks};
         });
-    if (found.is_lost) return Coverage::lost;
+    if (found.is_lost || found.open_blocks > most_open) return Coverage::lost;
     const bool is_loose = inner_skin_ < skin_ && found.whole_blocks * kMostWhole > blocks_.size();
     return is_loose ? Coverage::loose : Coverage::whole;
 }

@@ -4,7 +4,8 @@
 // within the support could be missing. Displacements are compared block against block, so a body of fluid that is
 // carried along does not wear the list out; only relative motion does. In between the list is pruned: the loops see
 // those entries only that a smaller skin reaches (the inner and outer list of Pall et al. 2020, J. Chem. Phys. 153,
-// 134110). Blocks that have moved further than it allows see all entries again until the next pruning.
+// 134110). Blocks that have moved further than it allows see all entries again until the next pruning. Where only a few
+// blocks outrun the skin, the pairs that come near are added to their lists (mend_block.h).
 #pragma once
 
 #include <array>
@@ -86,7 +87,7 @@ class PairList {
     // The same pairs with centres and neighbours exchanged.
     void build_transposed(const PairList& list, std::size_t centre_clusters);
 
-    // Gives blocks their entries back whose pruned ones may be needed.
+    // Gives blocks their entries back whose pruned ones may be needed, and mends those that outrun the skin.
     Coverage cover(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours);
     void bring_back();
     bool is_pruned() const;  // all of it
@@ -142,6 +143,7 @@ class PairList {
                      const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) const;
 
     double support_{}, skin_{}, far_skin_{}, inner_skin_{};  // [m]
+    bool can_mend_{};                                        // walls have a list of the same pairs, which is not mended
     std::vector<PairBlock<S>> blocks_;
     std::vector<Scratch> scratch_;  // one per thread
 };

@@ -25,6 +25,7 @@ struct NeighbourInput {
     int dimensions{3};
     OrderedPoints fluid, walls;  // walls.count = 0: none
     ReachOptions reach;
+    double wall_skin{};                   // [m] of the lists between fluid and walls; 0: the same
     bool walls_move{true};                // will move_walls() be called?
     bool has_new_walls{true};             // since the last find(): others, elsewhere, or in another order
     const PairVisibility* among_fluid{};  // all three null unless thin solids stand between pairs

@@ -77,6 +77,7 @@ void Wcsph::list_neighbours(const Particles& particles, const Surroundings& surr
     const bool has_new_walls = walls_.put_in_order(surroundings.domain) || is_first;
     in.walls = walls_.points();
     in.reach = {support_, skin() * spacing_, inner_skin() * spacing_, period_, nullptr};
+    in.wall_skin = wall_skin() * spacing_;
     if (const Visibility* panels = walls_.thin_walls()) {
         using enum SightLines::Between;
         const VectorField &x = particles.x, &w = walls_.particles().x;

@@ -1,6 +1,9 @@
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 #include "server/solver/parallel.h"
 
@@ -40,6 +43,38 @@ TEST_CASE("Parallel.ForVisitsEachElementOnce") {
         CHECK(std::accumulate(visits.begin(), visits.end(), 0) == static_cast<int>(count));
         CHECK(std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; }));
     }
+}
+
+TEST_CASE("Parallel.BlocksOfAShareAreTakenOnceFromBothEnds") {
+    BlockShare share;
+    share.assign(3, 7);
+    CHECK(share.take_front() == 3);
+    CHECK(share.take_back() == 6);
+    CHECK(share.take_back() == 5);
+    CHECK(share.take_front() == 4);
+    CHECK(share.take_front() == -1);
+    CHECK(share.take_back() == -1);
+}
+
+TEST_CASE("Parallel.ThreadsThatAreDoneHelpTheOthers") {
+    // The first block ends when all others have: somebody else must do those of its thread.
+    constexpr std::size_t kBlocks = 64;
+    const int threads = GENERATE(2, 3, 4);
+    with_threads(threads, [&] {
+        std::atomic<std::size_t> done{0};
+        bool is_helped = false;
+        parallel_for(kBlocks, 1, [&](std::size_t block, std::size_t, int) {
+            if (block == 0) {
+                const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+                while (done < kBlocks - 1 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+                is_helped = done == kBlocks - 1;
+            }
+            ++done;
+        });
+        CHECK(is_helped);
+        CHECK(done == kBlocks);
+        return 0;
+    });
 }
 
 TEST_CASE("Parallel.ReductionHasTheSameBitsForAnyThreadCount") {

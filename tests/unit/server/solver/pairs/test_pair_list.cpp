@@ -231,6 +231,41 @@ TEST_CASE("PairList.BringsBackPrunedPairsThatComeNear") {
     CHECK(across() > 0);
 }
 
+TEST_CASE("PairList.MendsTheListsOfAFewThatOutrunTheirSkin") {
+    // A drop flies at a corner of a large body at rest, from out of reach, by several skins.
+    const int dimensions = GENERATE(2, 3);
+    constexpr Index kBody = 25000, kDrop = 16;
+    Points points;
+    points.dimensions = dimensions;
+    points.fill(kBody, {0, 0, 0}, dimensions == 2 ? Vec3{150, 167, 0} : Vec3{10, 50, 50}, 37);
+    points.fill(kDrop, {-5.6, 1, 1}, {-3.6, 5, 3}, 38);  // 3.6 between them: the support and skin are 3.4
+    points.sort();
+    PairNeighboursOf<float> neighbours;
+    neighbours.find(input_of(points));
+    const auto is_drop = [&](std::size_t i) { return points.id[i] >= kBody; };
+    std::size_t met = 0;
+    for (int step = 0; step < 9; ++step) {
+        for (std::size_t i = 0; i < points.size(); ++i) points.x[0][i] += is_drop(i) ? 0.17 : 0.0;
+        REQUIRE(neighbours.move_fluid(points.x, points.V.data()));
+        std::map<std::pair<std::size_t, std::size_t>, int> times;
+        for_each_met(neighbours.among_fluid(), neighbours.fluid(), neighbours.fluid(),
+                     [&](std::size_t i, std::size_t j, double r2) {
+                         if (is_drop(i) != is_drop(j) && r2 < kSupport * kSupport) ++times[{i, j}];
+                     });
+        std::size_t wrong = 0;
+        met = times.size();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!is_drop(i)) continue;
+            for (std::size_t j = 0; j < points.size(); ++j) {
+                if (is_drop(j) || points.distance(i, j) > kSupport - 1e-5) continue;
+                wrong += times[{i, j}] != 1 || times[{j, i}] != 1;
+            }
+        }
+        CHECK(wrong == 0);
+    }
+    CHECK(met > 0);
+}
+
 TEST_CASE("PairList.WallsSeeTheFluidThatComesBackIntoReach") {
     // As above, with a wall instead of the second body: what the fluid's lists get back, the walls' must, too.
     const int dimensions = GENERATE(2, 3);
