@@ -1,8 +1,5 @@
 // Loads and operations of Lanes that need instructions of their own, for the instruction set this file is compiled for.
 // Included once per set (Highway's foreach_target).
-#include <algorithm>
-#include <array>
-
 #include "hwy/highway.h"
 #include "server/solver/lanes.h"
 
@@ -97,48 +94,22 @@ HWY_INLINE bool is_any_below(const PairLanes<S>& a, const PairLanes<S>& b) {
 #endif
 }
 
-// Sums over the lanes of each point: total[p][s] of the s-th vector over the four lanes of point p. From sums on there
-// are Count vectors.
-template <class S, std::size_t Count>
-HWY_INLINE void sum_fours(const char* sums, std::array<std::array<double, Count>, kPairLanes<S> / 4>& total) {
+// The sum of each four lanes, in the first of them.
+template <class S>
+HWY_INLINE void sum_fours(PairLanes<S>& a) {
     constexpr std::size_t N = kPairLanes<S>;
-    const auto vector = [&](std::size_t s) HWY_ATTR {
-        PairLanes<S> lanes;
-        __builtin_memcpy(&lanes.v, sums + s * sizeof lanes, sizeof lanes.v);
-        return lanes;
-    };
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
     if constexpr (sizeof(S) == 4 && N > 4) {
-        // Four vectors at a time, transposed while they are summed: a point's four sums are side by side then.
         const hn::CappedTag<S, N> d;
-        const hn::CappedTag<double, N / 2> pairs;
-        for (std::size_t s = 0; s < Count; s += 4) {
-            hn::Vec<decltype(d)> v[4];
-            for (std::size_t k = 0; k < 4; ++k) {
-                v[k] = hn::Zero(d);
-                if (s + k < Count) v[k].raw = (decltype(v[k].raw))vector(s + k).v;
-            }
-            const auto a =
-                hn::BitCast(pairs, hn::Add(hn::InterleaveLower(d, v[0], v[1]), hn::InterleaveUpper(d, v[0], v[1])));
-            const auto b =
-                hn::BitCast(pairs, hn::Add(hn::InterleaveLower(d, v[2], v[3]), hn::InterleaveUpper(d, v[2], v[3])));
-            alignas(64) S point[N];
-            hn::Store(hn::Add(hn::BitCast(d, hn::InterleaveLower(pairs, a, b)),
-                              hn::BitCast(d, hn::InterleaveUpper(pairs, a, b))),
-                      d, point);
-            for (std::size_t p = 0; p < N / 4; ++p) {
-                for (std::size_t k = 0; k < std::min<std::size_t>(4, Count - s); ++k)
-                    total[p][s + k] = static_cast<double>(point[4 * p + k]);
-            }
-        }
+        hn::Vec<decltype(d)> vector;
+        vector.raw = (decltype(vector.raw))a.v;
+        vector = hn::Add(vector, hn::Shuffle2301(vector));
+        vector = hn::Add(vector, hn::Shuffle1032(vector));
+        a.v = (typename PairLanes<S>::Vector)(vector.raw);
         return;
     }
 #endif
-    for (std::size_t s = 0; s < Count; ++s) {
-        const PairLanes<S> a = vector(s);
-        for (std::size_t p = 0; p < N / 4; ++p)
-            total[p][s] = static_cast<double>((a.v[4 * p] + a.v[4 * p + 2]) + (a.v[4 * p + 1] + a.v[4 * p + 3]));
-    }
+    for (std::size_t k = 0; k < N; k += 4) a.v[k] = (a.v[k] + a.v[k + 1]) + (a.v[k + 2] + a.v[k + 3]);
 }
 
 template <class S>

@@ -144,11 +144,19 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
                                                                        walls, sums);
                 }
             }
-            std::array<std::array<double, kSums>, kAtOnce> total;
-            sum_fours<S, kSums>(reinterpret_cast<const char*>(&sums), total);
+            // One by one: all at once would be copied word by word and read back before it has arrived.
+            alignas(64) S lanes[kSums][T::kCount];
+            for (std::size_t s = 0; s < kSums; ++s) {
+                T four;
+                __builtin_memcpy(&four.v, reinterpret_cast<const char*>(&sums) + s * sizeof(T), sizeof four.v);
+                sum_fours<S>(four);
+                __builtin_memcpy(lanes[s], &four.v, sizeof four.v);
+            }
             for (std::size_t l = 0; l < kAtOnce && part + l < points; ++l) {
+                std::array<double, kSums> total;
+                for (std::size_t s = 0; s < kSums; ++s) total[s] = static_cast<double>(lanes[s][4 * l]);
                 PointSums point;
-                __builtin_memcpy(static_cast<void*>(&point), total[l].data(), sizeof point);
+                __builtin_memcpy(static_cast<void*>(&point), total.data(), sizeof point);
                 pass.store(static_cast<Index>(begin + part + l), point);
             }
         }
