@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace headrace::solver {
 namespace {
 
-// Boxes around the places of now of a block's clusters [m], side by side, relative to a reference point.
+// Boxes around the places of now of a block's clusters [m], side by side, relative to a reference point: longer by what
+// rounding may have taken, since the clusters of spray are far apart.
 struct BlockBoxes {
     std::array<std::array<float, kMotionBlock>, 3> low{}, high{};
     std::size_t clusters{};
@@ -15,6 +19,7 @@ struct BlockBoxes {
 
 template <class S>
 BlockBoxes boxes_of_block(const ClusterPoints<S>& points, std::size_t block, const std::array<std::int32_t, 3>& base) {
+    constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
     BlockBoxes boxes;
     const std::size_t first = block * kMotionBlock;
     boxes.clusters = std::min(kMotionBlock, points.clusters() - first);
@@ -24,8 +29,10 @@ BlockBoxes boxes_of_block(const ClusterPoints<S>& points, std::size_t block, con
         for (int k = 0; k < points.dimensions(); ++k, record += kClusterSize) {
             const auto [low, high] = std::minmax_element(record, record + count);
             const double shift = (points.reference(first + c)[k] - base[k]) * points.reference_step();
-            boxes.low[k][c] = static_cast<float>(*low + shift);
-            boxes.high[k][c] = static_cast<float>(*high + shift);
+            const double from = static_cast<double>(*low) + shift, to = static_cast<double>(*high) + shift;
+            const double rounding = kEpsilon * (std::abs(from) + std::abs(to));
+            boxes.low[k][c] = static_cast<float>(from - rounding);
+            boxes.high[k][c] = static_cast<float>(to + rounding);
         }
     }
     return boxes;
