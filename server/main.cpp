@@ -16,7 +16,7 @@
 #include "server/service/endpoints.h"
 #include "server/service/log.h"
 #include "server/service/server.h"
-#include "server/solver/thread_wait.h"
+#include "server/solver/process_settings.h"
 
 namespace {
 
@@ -144,7 +144,7 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    headrace::solver::restart_with_short_spin(argv);
+    headrace::solver::restart_with_settings(argv);
     headrace::keep_large_arrays_apart();
     std::signal(SIGPIPE, SIG_IGN);  // whoever read our output has gone; the run goes on
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is a failed write, which recordings report

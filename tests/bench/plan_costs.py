@@ -22,8 +22,8 @@ import tempfile
 
 SKIPPED = 77
 COUNTED = "*make_counted_steps*"
-# One thread, and no restart for the sake of waiting threads: callgrind would lose the program.
-ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", GOMP_SPINCOUNT="0")
+# One thread, and no restart for the sake of settings (server/solver/process_settings.h): callgrind would lose the program.
+ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", GOMP_SPINCOUNT="0", GLIBC_TUNABLES="")
 
 
 # ---- counting --------------------------------------------------------------------------------------------------------
