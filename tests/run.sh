@@ -16,7 +16,7 @@ skipped.
   --full          installs those tools too (VTK, mandoc, zsh, fish, clang-format, valgrind, POV-Ray, Node.js and its
                   packages, Matplotlib, mypy, pip, GNU parallel, Slurm); then a skipped test is a failure, unless it
                   lacks the reference data of the validation, root, or
-                  an instruction that the machine hides from valgrind
+                  an instruction that the machine hides (rdtscp: valgrind)
   --preset NAME   release (default), debug, asan or tsan: see CMakePresets.json
   --label LABEL   only tests with this label: unit, stability, protocol, validation, cli, script, python, demo
   --help          this text

@@ -9,12 +9,10 @@ namespace headrace::solver {
 // do, or when the restart is not possible.
 //
 // A short spin of libgomp's waiting threads: by default they spin for milliseconds. On a machine that is busy otherwise
-// each barrier then costs a time slice: a dam break of 3,000 particles on two threads took 18 ms a step instead of 0.4
-// ms. Sleeping at once (passive) takes 0.7 ms a step on the same scene when the machine is idle, the short spin 0.36
-// ms.
+// each barrier then costs a time slice: a dam break of 3,000 particles on two threads took 18 ms a step instead of 0.4.
+// Sleeping at once (passive) takes 0.7 ms on the same scene when the machine is idle, the short spin 0.36 ms.
 //
-// Huge pages for what is allocated: at 10^6 particles sorting takes half of the time (28 to 13 ns a particle), and two
-// threads are not slowed by page walks.
+// Huge pages for what is allocated: at 10^6 particles sorting takes half of the time (28 to 13 ns a particle).
 void restart_with_settings(char** argv);
 
 }  // namespace headrace::solver
