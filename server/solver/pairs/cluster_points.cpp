@@ -11,13 +11,35 @@ namespace {
 
 // Where places beyond the last point stand [reference steps]: out of reach of any cluster's neighbours, and the square
 // is far from overflow.
-constexpr double kOutOfReach = 100.0;
+constexpr double kOutOfReach = 1000.0;
+
+// Points further than so many support radii from their block's reference point have one of their own.
+constexpr double kFarthest = 2.0;
 
 std::int32_t cube_of(double x, double step) {
     constexpr double kOutermost = 1e9;  // a faulted state may be packed without harm
     const double cube = std::floor(x / step);
     return cube > -kOutermost ? static_cast<std::int32_t>(std::min(cube, kOutermost))
                               : static_cast<std::int32_t>(-kOutermost);
+}
+
+double centre_of(std::int32_t cube, double step) {
+    return (cube + 0.5) * step;
+}
+
+struct Range {
+    double low{}, high{};
+
+    double middle() const { return 0.5 * (low + high); }
+};
+
+Range range_of(const std::vector<double>& x, std::size_t begin, std::size_t end) {
+    Range range{x[begin], x[begin]};
+    for (std::size_t i = begin + 1; i < end; ++i) {
+        range.low = std::min(range.low, x[i]);
+        range.high = std::max(range.high, x[i]);
+    }
+    return range;
 }
 
 }  // namespace
@@ -27,16 +49,43 @@ void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size
                              double support, bool moves) {
     count_ = count;
     dimensions_ = dimensions;
-    step_ = std::exp2(std::ceil(std::log2(2.0 * support)));
+    step_ = std::exp2(std::ceil(std::log2(0.25 * support)));
     stride_ = static_cast<std::size_t>(dimensions + 1) * kClusterSize;
     records_.resize(clusters() * stride_);
     reference_.resize(clusters());
-    boxes_.resize(clusters());
     start_.resize(moves ? clusters() * static_cast<std::size_t>(dimensions) * kClusterSize : 0);
     motion_.assign((clusters() + kMotionBlock - 1) / kMotionBlock, MotionBox{});
     settled_.assign(motion_.size(), MotionBox{});
     total_ = settled_;
+    boxes_.resize(motion_.size());
+    other_reference_.resize(motion_.size());
+    choose_references(x, support);
     pack<true>(x, V);
+}
+
+template <class S>
+void ClusterPoints<S>::choose_references(const VectorField& x, double support) {
+    parallel_for(clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
+        std::array<std::int32_t, 3> reference{};
+        for (int k = 0; k < dimensions_; ++k) {
+            const Range block = range_of(x[k], first * kClusterSize, std::min(last * kClusterSize, count_));
+            reference[k] = cube_of(block.middle(), step_);
+        }
+        unsigned others = 0;
+        for (std::size_t c = first; c < last; ++c) {
+            std::array<Range, 3> of_cluster{};
+            bool is_near = true;
+            for (int k = 0; k < dimensions_; ++k) {
+                of_cluster[k] = range_of(x[k], c * kClusterSize, std::min((c + 1) * kClusterSize, count_));
+                const double centre = centre_of(reference[k], step_);
+                is_near &= std::max(of_cluster[k].high - centre, centre - of_cluster[k].low) < kFarthest * support;
+            }
+            for (int k = 0; k < dimensions_ && !is_near; ++k) reference[k] = cube_of(of_cluster[k].middle(), step_);
+            reference_[c] = reference;
+            if (!is_near) others |= 1u << (c - first);
+        }
+        other_reference_[first / kMotionBlock] = static_cast<std::uint16_t>(others);
+    });
 }
 
 template <class S>
@@ -69,24 +118,18 @@ void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
             box.low[k] = kInfinity;
             box.high[k] = -kInfinity;
         }
+        [[maybe_unused]] BlockBoxes* const boxes = &boxes_[first / kMotionBlock];
+        if constexpr (IsStart) boxes->clear();
         for (std::size_t c = first; c < last; ++c) {
             const std::size_t begin = c * kClusterSize, in_cluster = std::min(kClusterSize, count_ - begin);
             S* record = &records_[c * stride_];
             std::size_t start = c * static_cast<std::size_t>(dimensions_) * kClusterSize;
             for (int k = 0; k < dimensions_; ++k, record += kClusterSize, start += kClusterSize) {
                 const double* places = x[k].data() + begin;
-                double low = places[0], high = places[0];
+                const double centre = centre_of(reference_[c][k], step_);
                 if constexpr (IsStart) {
-                    for (std::size_t l = 1; l < in_cluster; ++l) {
-                        low = std::min(low, places[l]);
-                        high = std::max(high, places[l]);
-                    }
-                    reference_[c][k] = cube_of(0.5 * (low + high), step_);
-                }
-                const double centre = (reference_[c][k] + 0.5) * step_;
-                if constexpr (IsStart) {
-                    boxes_[c].centre[k] = static_cast<float>(0.5 * (low + high) - centre);
-                    boxes_[c].half[k] = static_cast<float>(0.5 * (high - low));
+                    const Range range = range_of(x[k], begin, begin + in_cluster);
+                    boxes->set(k, c - first, range.low - centre, range.high - centre);
                 }
                 for (std::size_t l = 0; l < kClusterSize; ++l) {
                     const double place = l < in_cluster ? places[l] - centre : kOutOfReach * step_;

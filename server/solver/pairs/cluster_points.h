@@ -1,12 +1,16 @@
-// Places and volumes of points as the pair loops read them: four points side by side, relative to a reference point of
-// their cluster, so that single precision is as good far from the origin as near it.
+// Places and volumes of points as the pair loops read them: four points side by side, relative to a reference point
+// near by, so that single precision is as good far from the origin as near it.
 //
-// Reference points are the centres of cubes whose edge is a power of two [m] of two to four support radii: differences
-// between them are exact.
+// Reference points are the centres of cubes whose edge is a power of two [m] of a quarter to half a support radius:
+// differences between them are exact. The clusters of a block share one where it is a compact body.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "server/solver/pairs/aligned_array.h"
@@ -24,9 +28,22 @@ struct MotionBox {
     std::array<float, 3> low{}, high{};
 };
 
-// Box around a cluster's points when the order was new, relative to its reference point [m].
-struct ClusterBox {
-    std::array<float, 3> centre{}, half{};
+// Boxes around the points of a block's clusters, side by side, [axis][cluster]. [m]
+struct BlockBoxes {
+    static constexpr float kNowhere = 1e18f;  // out of everything's reach; its square is a number
+    std::array<std::array<float, kMotionBlock>, 3> low, high;
+
+    void clear() {  // all of them nowhere
+        for (auto* bounds : {&low, &high})
+            for (auto& of_axis : *bounds) of_axis.fill(kNowhere);
+    }
+    // Longer by what rounding may take: the clusters of spray are as wide as the scene.
+    void set(int axis, std::size_t cluster, double from, double to) {
+        constexpr double kRounding = 2.0 * std::numeric_limits<float>::epsilon();
+        const double rounding = kRounding * (std::abs(from) + std::abs(to));
+        low[axis][cluster] = static_cast<float>(from - rounding);
+        high[axis][cluster] = static_cast<float>(to + rounding);
+    }
 };
 
 // S: float or double.
@@ -48,13 +65,16 @@ class ClusterPoints {
     const S* record(std::size_t cluster) const { return &records_[cluster * stride_]; }
 
     const std::array<std::int32_t, 3>& reference(std::size_t cluster) const { return reference_[cluster]; }
-    // The same as a number, unique among reference points within 2^20 steps of each other.
-    std::uint64_t reference_key(std::size_t cluster) const {
-        const auto part = [&](int k) { return static_cast<std::uint64_t>(reference_[cluster][k] & 0x1fffff); };
-        return part(0) | part(1) << 21 | part(2) << 42;
-    }
     double reference_step() const { return step_; }  // [m]
-    const ClusterBox& box(std::size_t cluster) const { return boxes_[cluster]; }
+    // The first cluster behind this one that has another reference point or is in another block.
+    std::size_t end_of_reference(std::size_t cluster) const {
+        const std::size_t place = cluster % kMotionBlock;
+        const unsigned later = unsigned{other_reference_[cluster / kMotionBlock]} >> place >> 1;
+        const std::size_t end = later == 0 ? kMotionBlock - place : std::size_t(std::countr_zero(later)) + 1;
+        return std::min(cluster + end, clusters());
+    }
+    // When the order was new, each relative to the cluster's reference point.
+    const BlockBoxes& boxes(std::size_t block) const { return boxes_[block]; }
 
     // Displacement counts anew from the places of now.
     void settle();
@@ -66,6 +86,7 @@ class ClusterPoints {
     bool moves() const { return start_.size() > 0; }  // if not, all motion is 0
 
   private:
+    void choose_references(const VectorField& x, double support);
     template <bool IsStart>
     void pack(const VectorField& x, const FieldView& V);
 
@@ -75,7 +96,8 @@ class ClusterPoints {
     std::size_t stride_{};
     AlignedArray<S> records_;
     std::vector<std::array<std::int32_t, 3>> reference_;
-    std::vector<ClusterBox> boxes_;
+    std::vector<std::uint16_t> other_reference_;  // per block, bit c: cluster c has another one than the one before
+    std::vector<BlockBoxes> boxes_;
     AlignedArray<float> start_;  // [clusters][D][4] relative places that motion_ counts from; empty where none moves
     std::vector<MotionBox> motion_, settled_, total_;
 };

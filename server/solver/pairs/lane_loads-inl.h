@@ -51,6 +51,21 @@ HWY_INLINE PairLanes<S> load_four(const S* aligned) {
     return lanes;
 }
 
+// One number in all lanes.
+template <class S>
+HWY_INLINE PairLanes<S> load_one(const S* number) {
+    PairLanes<S> lanes;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    const hn::CappedTag<S, kPairLanes<S>> d;
+    if constexpr (kPairLanes<S> == hn::MaxLanes(d)) {
+        lanes.v = (typename PairLanes<S>::Vector)(hn::Set(d, *number).raw);
+        return lanes;
+    }
+#endif
+    for (std::size_t k = 0; k < kPairLanes<S>; ++k) lanes.v[k] = *number;
+    return lanes;
+}
+
 // The first number in the first four lanes, the second in the next four, ...
 template <class S, class From>
 HWY_INLINE PairLanes<S> spread_four(const From* numbers) {

@@ -101,108 +101,75 @@ void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, c
     blocks_.resize(count);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
     const double reach = (options.support + options.skin) * (1.0 + kRounding);
-    for (Scratch& scratch : scratch_) {
-        scratch.stamp.clear();
-        scratch.clusters.start({&centres, &x, &neighbours, &order, reach, options.period});
-    }
+    const double far_reach = (options.support + skin_ + far_skin_) * (1.0 + kRounding);
+    for (Scratch& scratch : scratch_)
+        scratch.near.start({&centres, &x, &neighbours, &order, reach, far_reach, options.period});
     parallel_for(count, 4, [&](std::size_t first, std::size_t last, int thread) {
         for (std::size_t b = first; b < last; ++b)
-            build_block(b, centres, x, order, options, scratch_[static_cast<std::size_t>(thread)]);
+            build_block(b, centres, x, neighbours, options, scratch_[static_cast<std::size_t>(thread)]);
     });
     if (options.visibility != nullptr) refresh(*options.visibility, centres.size(), neighbours.size());
 }
 
 template <class S>
 void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, const VectorField& x,
-                              const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) {
+                              const ClusterPoints<S>& neighbours, const ReachOptions& options, Scratch& scratch) {
     PairBlock<S>& block = blocks_[b];
-    scratch.start_block();
+    NearBlocks<S>& near = scratch.near;
     const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
-    for (std::size_t c = first; c < last; ++c) {
-        const std::size_t begin = c * kClusterSize, end = std::min(begin + kClusterSize, centres.size());
-        scratch.extents[c - first] = extent_of(x, centres.dimensions(), begin, end);
-    }
-    list_nearby(block, x, centres.dimensions(), first * kClusterSize, std::min(last * kClusterSize, centres.size()),
-                order, options, scratch);
-    block.first_group.fill(0);
+    near.find(first * kClusterSize, std::min(last * kClusterSize, centres.size()));
+    block.nearby.assign(near.blocks().begin(), near.blocks().end());
+    scratch.start_block();
+    NearQuery<S> query;
+    query.dimensions = centres.dimensions();
+    query.records = neighbours.record(0);
+    query.reach = (options.support + options.skin) * (1.0 + kRounding);
     bool needs_visibility = false;
+    block.rows.fill({});
     for (std::size_t c = first; c < last && !block.nearby.empty();) {
-        const std::size_t end = scratch.clusters.find(c, last, &scratch.extents[c - first]);
-        scratch.forget_ways_from();  // those found are others
+        const std::size_t end = centres.end_of_reference(c), first_way = scratch.ways.size();
+        near.add_ways(c, end, scratch.ways);
+        query.ways = scratch.ways.data() + first_way;
+        query.sights = near.sights().data();
+        query.way_count = near.sights().size();
+        scratch.maybe.resize(std::max(scratch.maybe.size(), space_for_near(query.way_count)));
+        query.maybe = scratch.maybe.data();
         for (; c < end; ++c) {
-            block.first_group[c - first] = static_cast<Index>(scratch.groups.size());
-            if (options.visibility != nullptr)
-                needs_visibility |= options.visibility->is_needed_near(scratch.extents[c - first].low);
-            list_near(scratch, c, centres.reference(c));
+            const std::size_t space = scratch.used + space_for_near(query.way_count);
+            if (scratch.entries.size() < space) scratch.entries.resize(2 * space);
+            query.centre = centres.record(c);
+            query.centre_points = std::min(kClusterSize, centres.size() - c * kClusterSize);
+            query.box = near.box_of(c);
+            PairRow& row = block.rows[c - first];
+            row.begin = static_cast<Index>(scratch.used);
+            scratch.used += list_near(query, &scratch.entries[scratch.used]);
+            row.end = static_cast<Index>(scratch.used);
+            row.ways = static_cast<Index>(first_way);
+            if (options.visibility != nullptr) {
+                Vec3 place{};
+                for (int k = 0; k < centres.dimensions(); ++k) place[k] = x[k][c * kClusterSize];
+                needs_visibility |= options.visibility->is_needed_near(place);
+            }
         }
     }
     for (std::size_t c = last - first; c <= kMotionBlock; ++c)
-        block.first_group[c] = static_cast<Index>(scratch.groups.size());
+        block.rows[c].begin = block.rows[c].end = static_cast<Index>(scratch.used);
     scratch.finish_block(block, needs_visibility);
 }
 
 template <class S>
 void PairList<S>::Scratch::start_block() {
-    groups.clear();
     ways.clear();
-    entries.clear();
-    next_way = 0;
+    used = 0;
 }
 
 template <class S>
 void PairList<S>::Scratch::finish_block(PairBlock<S>& block, bool needs_visibility) {
-    const auto end = static_cast<Index>(entries.size());
-    groups.push_back({end, end, 0});
-    block.groups.assign(groups.begin(), groups.end());
     block.ways.assign(ways.begin(), ways.end());
-    block.entries.assign(entries.begin(), entries.end());
+    block.entries.assign(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(used));
     block.is_whole = true;
     block.seen.clear();
     if (needs_visibility) block.seen.assign(block.entries.size(), 0xffff);
-}
-
-// Centres that stand together see the same ways in the same order: mostly it is the one behind the last one asked for.
-template <class S>
-Index PairList<S>::Scratch::way_number(const PairWay<S>& way) {
-    for (std::size_t n = 0; n < ways.size(); ++n) {
-        if (next_way >= ways.size()) next_way = 0;
-        if (ways[next_way++] == way) return next_way - 1;
-    }
-    ways.push_back(way);
-    next_way = static_cast<Index>(ways.size());
-    return next_way - 1;
-}
-
-template <class S>
-std::vector<Index>& PairList<S>::Scratch::way_numbers_from(const std::array<std::int32_t, 3>& reference,
-                                                           std::size_t count) {
-    for (std::size_t r = 0; r < references; ++r) {
-        if (ways_from[r].reference == reference) return ways_from[r].numbers;
-    }
-    if (references == ways_from.size()) ways_from.emplace_back();
-    WaysFrom& from = ways_from[references++];
-    from.reference = reference;
-    from.numbers.assign(count, kNone);
-    return from.numbers;
-}
-
-// Entries on one way are a group.
-template <class S>
-void PairList<S>::list_near(Scratch& scratch, std::size_t centre, const std::array<std::int32_t, 3>& reference) {
-    const auto near = scratch.clusters.near(centre);
-    std::vector<Index>& numbers = scratch.way_numbers_from(reference, near.way_count);
-    const auto base = static_cast<Index>(scratch.entries.size());
-    Index begin = 0;
-    for (std::size_t w = 0; w < near.way_count; ++w) {
-        const Index end = near.end_of_way[w];
-        if (end > begin) {
-            if (numbers[w] == Scratch::kNone) numbers[w] = scratch.way_number(near.ways[w].way);
-            scratch.groups.push_back({base + begin, base + end, numbers[w]});
-        }
-        begin = end;
-    }
-    scratch.entries.resize(base + begin);
-    for (Index n = 0; n < begin; ++n) scratch.entries[base + n] = static_cast<PairEntry>(near.clusters[n]);
 }
 
 template <class S>
@@ -221,16 +188,11 @@ void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clus
     std::vector<Index> next(first.begin(), first.end() - 1);
     for (std::size_t b = 0; b < list.blocks_.size(); ++b) {
         const PairBlock<S>& block = list.blocks_[b];
-        for (std::size_t c = 0; c < kMotionBlock; ++c) {
-            for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
-                const PairWay<S>& way = block.way(block.groups[g]);
-                const Reverse reverse{static_cast<Index>(b * kMotionBlock + c),
-                                      {-way.offset[0], -way.offset[1], -way.offset[2]},
-                                      !block.seen.empty()};
-                for (Index e = block.groups[g].begin; e < block.listed_end(g); ++e)
-                    entries[next[way.page + block.entries[e]]++] = reverse;
-            }
-        }
+        block.for_each_listed([&](std::size_t c, Index j, Index e) {
+            const auto& offset = block.way(block.rows[c], e).offset;
+            entries[next[j]++] = {
+                static_cast<Index>(b * kMotionBlock + c), {-offset[0], -offset[1], -offset[2]}, !block.seen.empty()};
+        });
     }
     parallel_for(blocks_.size(), 4, [&](std::size_t begin, std::size_t end, int thread) {
         for (std::size_t b = begin; b < end; ++b)
@@ -238,57 +200,34 @@ void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clus
     });
 }
 
-// Entries of one way are a group, in the order in which they come.
+// Entries in the order in which they come.
 template <class S>
 void PairList<S>::build_transposed_block(std::size_t b, const std::vector<Index>& first,
                                          const std::vector<Reverse>& entries, Scratch& scratch) {
     PairBlock<S>& block = blocks_[b];
     block.nearby.clear();
     scratch.start_block();
+    scratch.entries.resize(
+        std::max<std::size_t>(scratch.entries.size(), first[(b + 1) * kMotionBlock] - first[b * kMotionBlock]));
     bool needs_visibility = false;
+    std::size_t hint = 0;
     for (std::size_t c = 0; c < kMotionBlock; ++c) {
-        block.first_group[c] = static_cast<Index>(scratch.groups.size());
         const Index begin = first[b * kMotionBlock + c], end = first[b * kMotionBlock + c + 1];
-        std::vector<Index>& ways = scratch.ways_of_centre;
-        ways.clear();
+        // Centres that stand together share their ways, as long as there are numbers for those that may come.
+        Index first_way = c == 0 ? 0 : block.rows[c - 1].ways;
+        if (scratch.ways.size() - first_way + (end - begin) > kMostWays)
+            first_way = static_cast<Index>(scratch.ways.size());
+        block.rows[c] = {static_cast<Index>(scratch.used), static_cast<Index>(scratch.used + end - begin), first_way};
         for (Index e = begin; e < end; ++e) {
             needs_visibility |= entries[e].needs_visibility;
-            const Index way = scratch.way_number({page_of(entries[e].cluster), entries[e].offset});
-            if (std::find(ways.begin(), ways.end(), way) == ways.end()) ways.push_back(way);
-        }
-        for (const Index way : ways) {
-            const auto from = static_cast<Index>(scratch.entries.size());
-            for (Index e = begin; e < end; ++e) {
-                const PairWay<S> of_entry{page_of(entries[e].cluster), entries[e].offset};
-                if (of_entry == scratch.ways[way])
-                    scratch.entries.push_back(static_cast<PairEntry>(entries[e].cluster));
-            }
-            scratch.groups.push_back({from, static_cast<Index>(scratch.entries.size()), way});
+            const Index place = entries[e].cluster % kMotionBlock;
+            const Index number =
+                number_of_way(scratch.ways, first_way, {entries[e].offset, entries[e].cluster - place}, hint);
+            scratch.entries[scratch.used++] = make_entry(number, place);
         }
     }
-    block.first_group[kMotionBlock] = static_cast<Index>(scratch.groups.size());
+    block.rows[kMotionBlock] = {static_cast<Index>(scratch.used), static_cast<Index>(scratch.used), 0};
     scratch.finish_block(block, needs_visibility);
-}
-
-template <class S>
-void PairList<S>::list_nearby(PairBlock<S>& block, const VectorField& x, int dimensions, std::size_t begin,
-                              std::size_t end, const ClusterOrder& order, const ReachOptions& options,
-                              Scratch& scratch) const {
-    constexpr Index kSlots = kMotionBlock * kClusterSize;
-    const double reach = (options.support + skin_ + far_skin_) * (1.0 + kRounding);
-    scratch.nearby.clear();
-    scratch.stamp.resize((order.clusters() + kMotionBlock - 1) / kMotionBlock, 0);
-    const std::size_t clusters = (end - begin + kClusterSize - 1) / kClusterSize;
-    Extent extent = scratch.extents[0];
-    for (std::size_t c = 1; c < clusters; ++c) extent = join(extent, scratch.extents[c]);
-    const auto look = static_cast<Index>(begin / kSlots + 1);
-    for_each_run_near(order, x, dimensions, begin, end, extent, reach, [&](const RowRun& run) {
-        for (Index n = run.begin / kClusterSize; n <= (run.end - 1) / kClusterSize; ++n) {
-            const auto j = static_cast<Index>(order.cluster_at(n) / kMotionBlock);
-            if (std::exchange(scratch.stamp[j], look) != look) scratch.nearby.push_back(j);
-        }
-    });
-    block.nearby.assign(scratch.nearby.begin(), scratch.nearby.end());
 }
 
 template <class S>
@@ -307,20 +246,20 @@ void PairList<S>::prune(const ClusterPoints<S>& centres, const ClusterPoints<S>&
             PruneQuery<S> query;
             query.dimensions = centres.dimensions();
             query.records = neighbours.record(0);
-            query.ways = block.ways.data();
-            query.entries = block.entries.data();
-            query.seen = block.seen.empty() ? nullptr : block.seen.data();
             query.reach = reach;
             query.far = scratch.far.data();
             query.far_seen = scratch.far_seen.data();
             for (std::size_t c = 0; c < kMotionBlock; ++c) {
-                query.groups = block.groups.data() + block.first_group[c];
-                query.group_count = block.first_group[c + 1] - block.first_group[c];
-                if (query.group_count == 0) continue;
+                PairRow& row = block.rows[c];
+                query.count = block.listed_end(c) - row.begin;
+                if (query.count == 0) continue;
                 const std::size_t cluster = b * kMotionBlock + c;
                 query.centre = centres.record(cluster);
                 query.centre_points = std::min(kClusterSize, centres.size() - cluster * kClusterSize);
-                prune_to_reach(query);
+                query.ways = block.ways.data() + row.ways;
+                query.entries = block.entries.data() + row.begin;
+                query.seen = block.seen.empty() ? nullptr : block.seen.data() + row.begin;
+                row.end = row.begin + static_cast<Index>(prune_to_reach(query));
             }
         }
     });
@@ -362,7 +301,10 @@ Coverage PairList<S>::cover(const ClusterPoints<S>& centres, const ClusterPoints
                     here.is_lost = true;
                     return here;
                 }
-                mend_block(block, b, centres, neighbours, open, reach);
+                if (!mend_block(block, b, centres, neighbours, open, reach)) {
+                    here.is_lost = true;
+                    return here;
+                }
             }
             return here;
         },
@@ -409,14 +351,14 @@ template <class S>
 bool PairList<S>::has_entries(std::size_t centre_cluster) const {
     const PairBlock<S>& block = blocks_[centre_cluster / kMotionBlock];
     const std::size_t c = centre_cluster % kMotionBlock;
-    return block.first_group[c] < block.first_group[c + 1];
+    return block.rows[c].begin < block.listed_end(c);
 }
 
 template <class S>
 std::size_t PairList<S>::entries() const {
     std::size_t count = 0;
     for (const PairBlock<S>& block : blocks_)
-        for (const PairGroup& group : block.groups) count += group.end - group.begin;
+        for (const PairRow& row : block.rows) count += row.end - row.begin;
     return count;
 }
 
@@ -424,9 +366,8 @@ template <class S>
 std::size_t PairList<S>::bytes() const {
     std::size_t bytes = blocks_.capacity() * sizeof(PairBlock<S>);
     for (const PairBlock<S>& block : blocks_)
-        bytes += block.groups.capacity() * sizeof(PairGroup) + block.ways.capacity() * sizeof(PairWay<S>) +
-                 block.entries.capacity() * sizeof(PairEntry) + block.nearby.capacity() * sizeof(Index) +
-                 block.seen.capacity() * sizeof(std::uint16_t);
+        bytes += block.ways.capacity() * sizeof(PairWay<S>) + block.entries.capacity() * sizeof(PairEntry) +
+                 block.nearby.capacity() * sizeof(Index) + block.seen.capacity() * sizeof(std::uint16_t);
     return bytes;
 }
 

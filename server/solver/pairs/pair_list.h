@@ -14,8 +14,8 @@
 
 #include "server/solver/pairs/cluster_order.h"
 #include "server/solver/pairs/cluster_points.h"
-#include "server/solver/pairs/nearby_clusters.h"
-#include "server/solver/pairs/pair_group.h"
+#include "server/solver/pairs/near_blocks.h"
+#include "server/solver/pairs/pair_way.h"
 #include "server/solver/visibility.h"
 
 namespace headrace::solver {
@@ -23,8 +23,7 @@ namespace headrace::solver {
 // The lists of kMotionBlock clusters of centres.
 template <class S>
 struct PairBlock {
-    std::array<Index, kMotionBlock + 1> first_group{};
-    std::vector<PairGroup> groups;  // and one more, where the entries end
+    std::array<PairRow, kMotionBlock + 1> rows{};  // of each centre; the last one tells where the entries end
     std::vector<PairWay<S>> ways;
     std::vector<PairEntry> entries;
     std::vector<std::uint16_t> seen;  // of each entry: bit 4 i + j: may they interact? Empty: all may.
@@ -32,21 +31,26 @@ struct PairBlock {
     bool is_whole{true};              // do the loops see all entries?
 
     void bring_back() {
-        for (Index g = 0; g + 1 < groups.size(); ++g) groups[g].end = listed_end(g);
+        for (std::size_t c = 0; c < kMotionBlock; ++c) rows[c].end = listed_end(c);
         is_whole = true;
     }
 
-    const PairWay<S>& way(const PairGroup& group) const { return ways[group.way]; }
-    // Where the group's entries end, those included that were pruned away.
-    Index listed_end(Index group) const { return groups[group + 1].begin; }
-    // visit(centre cluster within the block, cluster of neighbours, entry) for all that are listed.
+    // Where the centre's entries end, those included that were pruned away.
+    Index listed_end(std::size_t centre) const { return rows[centre + 1].begin; }
+    const PairWay<S>& way(const PairRow& row, Index entry) const { return ways[row.ways + way_of(entries[entry])]; }
+    Index cluster(const PairRow& row, Index entry) const { return way(row, entry).first + place_of(entries[entry]); }
+
+    // visit(centre cluster within the block, cluster of neighbours, entry) for all that are listed, and for those that
+    // the loops see.
     template <class Visit>
     void for_each_listed(Visit&& visit) const {
-        for (std::size_t c = 0; c < kMotionBlock; ++c) {
-            for (Index g = first_group[c]; g < first_group[c + 1]; ++g) {
-                for (Index e = groups[g].begin; e < listed_end(g); ++e) visit(c, way(groups[g]).page + entries[e], e);
-            }
-        }
+        for (std::size_t c = 0; c < kMotionBlock; ++c)
+            for (Index e = rows[c].begin; e < listed_end(c); ++e) visit(c, cluster(rows[c], e), e);
+    }
+    template <class Visit>
+    void for_each_met(Visit&& visit) const {
+        for (std::size_t c = 0; c < kMotionBlock; ++c)
+            for (Index e = rows[c].begin; e < rows[c].end; ++e) visit(c, cluster(rows[c], e), e);
     }
 };
 
@@ -102,29 +106,13 @@ class PairList {
 
   private:
     struct Scratch {
-        static constexpr Index kNone = ~Index{0};
-        // The numbers of the ways from one reference point of centres; kNone: not asked for yet.
-        struct WaysFrom {
-            std::array<std::int32_t, 3> reference{};
-            std::vector<Index> numbers;
-        };
-
-        NearbyClusters<S> clusters;
-        std::array<Extent, kMotionBlock> extents;  // of the block's clusters
-        std::vector<Index> stamp;                  // of each block of neighbours: the last block that looked at it
-        std::vector<PairGroup> groups;
+        NearBlocks<S> near;
         std::vector<PairWay<S>> ways;
         std::vector<PairEntry> entries, far;
-        std::vector<Index> nearby, ways_of_centre;
-        std::vector<WaysFrom> ways_from;
-        std::size_t references{};  // in use
-        Index next_way{};
+        std::vector<Index> maybe;
         std::vector<std::uint16_t> far_seen;
+        std::size_t used{};  // entries
 
-        // The number of this way of the block.
-        Index way_number(const PairWay<S>& way);
-        std::vector<Index>& way_numbers_from(const std::array<std::int32_t, 3>& reference, std::size_t count);
-        void forget_ways_from() { references = 0; }
         void start_block();
         // Writes the block's lists.
         void finish_block(PairBlock<S>& block, bool needs_visibility);
@@ -137,10 +125,7 @@ class PairList {
     void build_transposed_block(std::size_t block, const std::vector<Index>& first, const std::vector<Reverse>& entries,
                                 Scratch& scratch);
     void build_block(std::size_t block, const ClusterPoints<S>& centres, const VectorField& x,
-                     const ClusterOrder& order, const ReachOptions& options, Scratch& scratch);
-    static void list_near(Scratch& scratch, std::size_t centre, const std::array<std::int32_t, 3>& reference);
-    void list_nearby(PairBlock<S>& block, const VectorField& x, int dimensions, std::size_t begin, std::size_t end,
-                     const ClusterOrder& order, const ReachOptions& options, Scratch& scratch) const;
+                     const ClusterPoints<S>& neighbours, const ReachOptions& options, Scratch& scratch);
 
     double support_{}, skin_{}, far_skin_{}, inner_skin_{};  // [m]
     bool can_mend_{};                                        // walls have a list of the same pairs, which is not mended

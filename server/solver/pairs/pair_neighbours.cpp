@@ -95,13 +95,9 @@ void PairNeighboursOf<S>::for_each_wall_pair(const std::function<void(Index wall
     const auto& blocks = wall_to_fluid_.blocks();
     parallel_for(blocks.size(), 1, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t b = first; b < last; ++b) {
-            for (std::size_t c = 0; c < kMotionBlock; ++c) {
-                for (Index g = blocks[b].first_group[c]; g < blocks[b].first_group[c + 1]; ++g) {
-                    const PairGroup& group = blocks[b].groups[g];
-                    for (Index e = group.begin; e < group.end; ++e)
-                        visit_clusters(b * kMotionBlock + c, blocks[b].way(group).page + blocks[b].entries[e]);
-                }
-            }
+            blocks[b].for_each_met([&](std::size_t c, Index fluid_cluster, Index) {
+                visit_clusters(b * kMotionBlock + c, fluid_cluster);
+            });
         }
     });
 }

@@ -47,47 +47,49 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<P
                           const NeighbourSource<S>& source, typename Pass::template Sums<PairLanes<S>>& sums) {
     using T = PairLanes<S>;
     constexpr std::size_t kRecord = 4 * (D + 1), kFields = 4 * Fields;
+    const PairRow row = block.rows[c];
     const PairEntry* const entries = block.entries.data();
-    for (Index g = block.first_group[c]; g < block.first_group[c + 1]; ++g) {
-        const PairGroup group = block.groups[g];
-        if (group.begin == group.end) continue;
-        const PairWay<S>& way = block.way(group);
-        const S* const records = source.points->record(way.page);
-        const S* const fields_of_page = source.fields + way.page * kFields;
-        std::array<T, D> x;
-        for (int k = 0; k < D; ++k) x[k] = x_i[k] + T(static_cast<double>(way.offset[k]));
-        const auto meet = [&](Index e) {
-            const S* record = records + entries[e] * kRecord;
-            Pair<D, T> pair;
-            for (int k = 0; k < D; ++k) pair.x_ij[k] = x[k] - load_four<S>(record + 4 * k);
-            pair.r2 = dot<D, T>(pair.x_ij, pair.x_ij);
-            pair.r = square_root<S>(pair.r2);
-            pair.V_j = load_four<S>(record + 4 * D);
-            if constexpr (IsHidden) {
-                // Rare, beside thin panels: hidden neighbours have no volume.
-                alignas(64) S seen[T::kCount];
-                for (std::size_t l = 0; l < T::kCount; ++l)
-                    seen[l] = static_cast<S>((block.seen[e] >> (4 * first_point + l)) & 1u);
-                T weight;
-                __builtin_memcpy(&weight.v, seen, sizeof weight.v);
-                pair.V_j *= weight;
-            }
-            return pair;
-        };
-        // One ahead, where there are registers enough: the square root takes as long as the rest.
-        constexpr bool kIsAhead = HWY_TARGET == HWY_AVX3;
-        Pair<D, T> next;
-        if constexpr (kIsAhead) next = meet(group.begin);
-        for (Index e = group.begin; e < group.end; ++e) {
-            const Pair<D, T> pair = kIsAhead ? next : meet(e);
-            if constexpr (kIsAhead) {
-                if (e + 1 < group.end) next = meet(e + 1);
-            }
-            const S* fields = fields_of_page + entries[e] * kFields;
-            FieldsOf<T, Fields> neighbour;
-            for (std::size_t f = 0; f < Fields; ++f) neighbour.field[f] = load_four<S>(fields + 4 * f);
-            pass.template pair<IsWall>(self, pair, neighbour, sums);
+    const PairWay<S>* const ways = block.ways.data() + row.ways;
+    const S* const records = source.points->record(0);
+    struct Met {
+        Pair<D, T> pair;
+        std::size_t cluster;
+    };
+    const auto meet = [&](Index e) {
+        const PairWay<S>& way = ways[way_of(entries[e])];
+        Met met;
+        met.cluster = std::size_t{way.first} + place_of(entries[e]);
+        const S* record = records + met.cluster * kRecord;
+        Pair<D, T>& pair = met.pair;
+        for (int k = 0; k < D; ++k)
+            pair.x_ij[k] = (x_i[k] + load_one<S>(&way.offset[k])) - load_four<S>(record + 4 * k);
+        pair.r2 = dot<D, T>(pair.x_ij, pair.x_ij);
+        pair.r = square_root<S>(pair.r2);
+        pair.V_j = load_four<S>(record + 4 * D);
+        if constexpr (IsHidden) {
+            // Rare, beside thin panels: hidden neighbours have no volume.
+            alignas(64) S seen[T::kCount];
+            for (std::size_t l = 0; l < T::kCount; ++l)
+                seen[l] = static_cast<S>((block.seen[e] >> (4 * first_point + l)) & 1u);
+            T weight;
+            __builtin_memcpy(&weight.v, seen, sizeof weight.v);
+            pair.V_j *= weight;
         }
+        return met;
+    };
+    // One ahead, where there are registers enough: the square root takes as long as the rest.
+    constexpr bool kIsAhead = HWY_TARGET == HWY_AVX3;
+    Met next;
+    if (kIsAhead && row.begin < row.end) next = meet(row.begin);
+    for (Index e = row.begin; e < row.end; ++e) {
+        const Met met = kIsAhead ? next : meet(e);
+        if constexpr (kIsAhead) {
+            if (e + 1 < row.end) next = meet(e + 1);
+        }
+        const S* fields = source.fields + met.cluster * kFields;
+        FieldsOf<T, Fields> neighbour;
+        for (std::size_t f = 0; f < Fields; ++f) neighbour.field[f] = load_four<S>(fields + 4 * f);
+        pass.template pair<IsWall>(self, met.pair, neighbour, sums);
     }
 }
 
@@ -107,7 +109,7 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
     for (std::size_t c = first; c < last; ++c) {
         const std::size_t begin = c * kClusterSize, points = std::min(kClusterSize, centres.size() - begin);
         const PairBlock<S>& block = fluid.list->blocks()[b];
-        if (Pass::kIsOfWalls && block.first_group[c - first] == block.first_group[c - first + 1]) {
+        if (Pass::kIsOfWalls && block.rows[c - first].begin == block.listed_end(c - first)) {
             for (std::size_t l = 0; l < points; ++l) pass.store(static_cast<Index>(begin + l), PointSums{});
             continue;
         }

@@ -29,7 +29,7 @@ class CentreLanes {
     HWY_INLINE CentreLanes displaced(const std::array<S, 3>& offset) const {
         CentreLanes there = *this;
         for (std::size_t part = 0; part < kParts; ++part)
-            for (int k = 0; k < D; ++k) there.x_[part][k] += T(static_cast<double>(offset[k]));
+            for (int k = 0; k < D; ++k) there.x_[part][k] += load_one<S>(&offset[k]);
         return there;
     }
 
@@ -52,112 +52,138 @@ class CentreLanes {
     std::array<std::array<T, D>, kParts> x_;
 };
 
-template <class S, int D>
-void filter(const ReachQuery<S>& query, Index* found, Index* end_of_way) {
-    const CentreLanes<S, D> centre(query.centre, query.centre_points);
-    const PairLanes<S> reach2(query.reach * query.reach);
-    std::size_t written = 0, c = 0;
-    for (std::size_t w = 0; w < query.way_count; ++w) {
-        const CandidateWay<S>& way = query.ways[w];
-        const CentreLanes<S, D> x = centre.displaced(way.way.offset);
-        for (; c < query.count && query.kept[c] < way.end; ++c) {
-            const Index cluster = query.clusters[query.kept[c]];
-            found[written] = cluster;
-            written += x.is_within(reach2, query.records + cluster * std::size_t{4 * (D + 1)});
-        }
-        end_of_way[w] = static_cast<Index>(written);
-    }
-}
-
-template <class S, int D, bool HasSeen>
-void prune(const PruneQuery<S>& query) {
-    const CentreLanes<S, D> centre(query.centre, query.centre_points);
-    const PairLanes<S> reach2(query.reach * query.reach);
-    for (std::size_t g = 0; g < query.group_count; ++g) {
-        PairGroup& group = query.groups[g];
-        const PairWay<S>& way = query.ways[group.way];
-        const CentreLanes<S, D> x = centre.displaced(way.offset);
-        constexpr std::size_t kRecord = 4 * (D + 1);
-        const S* const page = query.records + way.page * kRecord;
-        const Index listed_end = query.groups[g + 1].begin;
-        Index near = group.begin, far = 0;
-        for (Index e = group.begin; e < listed_end; ++e) {
-            const PairEntry entry = query.entries[e];
-            const bool is_near = x.is_within(reach2, page + entry * kRecord);
-            query.far[far] = entry;
-            query.entries[near] = entry;
-            if constexpr (HasSeen) {
-                const std::uint16_t seen = query.seen[e];
-                query.far_seen[far] = seen;
-                query.seen[near] = seen;
-            }
-            near += is_near;
-            far += !is_near;
-        }
-        group.end = near;
-        std::copy(query.far, query.far + far, query.entries + near);
-        if constexpr (HasSeen) std::copy(query.far_seen, query.far_seen + far, query.seen + near);
-    }
-}
-
-template <class S>
-void prune_any(const PruneQuery<S>& query) {
-    if (query.dimensions == 2) {
-        query.seen == nullptr ? prune<S, 2, false>(query) : prune<S, 2, true>(query);
-    } else {
-        query.seen == nullptr ? prune<S, 3, false>(query) : prune<S, 3, true>(query);
-    }
-}
-
 // Longer than the reach by this share: places are rounded to float.
 constexpr double kRounding = 1e-4;
 
+// The clusters of one way against a box, some at once.
 template <int D>
-std::size_t boxes_within(const BoxQuery& query, Index* kept) {
-    const hn::CappedTag<float, BoxQuery::kPadding> d;
-    const hn::RebindToUnsigned<decltype(d)> du;
-    static_assert(sizeof(Index) == sizeof(hn::TFromD<decltype(du)>));
-    std::array<hn::Vec<decltype(d)>, D> centre, half;
-    for (int k = 0; k < D; ++k) {
-        centre[k] = hn::Set(d, query.box.centre[k]);
-        half[k] = hn::Set(d, query.box.half[k]);
-    }
-    const auto reach2 = hn::Set(d, static_cast<float>(query.reach * query.reach * (1.0 + 2.0 * kRounding)));
-    const auto zero = hn::Zero(d);
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < query.count; k += hn::Lanes(d)) {
-        auto gap2 = zero;
+class BoxLanes {
+  public:
+    static constexpr hn::CappedTag<float, kMotionBlock> d{};
+
+    BoxLanes(const ClusterBox& box, double reach)
+        : reach2_(hn::Set(d, static_cast<float>(reach * reach * (1.0 + 2.0 * kRounding)))) {
         for (int a = 0; a < D; ++a) {
-            const auto apart = hn::Abs(hn::Sub(hn::Load(d, query.centre[a] + k), centre[a]));
-            const auto gap = hn::Max(zero, hn::Sub(apart, hn::Add(hn::Load(d, query.half[a] + k), half[a])));
+            low_[a] = hn::Set(d, box.low[a]);
+            high_[a] = hn::Set(d, box.high[a]);
+        }
+    }
+
+    // Which of them from `first` on are within reach of the box?
+    HWY_INLINE hn::Mask<hn::CappedTag<float, kMotionBlock>> near(const WaySight& sight, std::size_t first) const {
+        auto gap2 = hn::Zero(d);
+        for (int a = 0; a < D; ++a) {
+            const auto high = hn::Add(high_[a], hn::Set(d, sight.up[a])),
+                       low = hn::Add(low_[a], hn::Set(d, sight.down[a]));
+            const auto below = hn::Sub(hn::LoadU(d, &sight.boxes->low[a][first]), high);
+            const auto above = hn::Sub(low, hn::LoadU(d, &sight.boxes->high[a][first]));
+            const auto gap = hn::Max(hn::Zero(d), hn::Max(below, above));
             gap2 = hn::MulAdd(gap, gap, gap2);
         }
-        const auto numbers = hn::Iota(du, static_cast<Index>(k));
-        const auto is_near = hn::RebindMask(du, hn::Le(gap2, reach2));
-        // Compressing into memory is slow on some machines.
-        hn::StoreU(hn::Compress(numbers, is_near), du, kept + count);
-        count += hn::CountTrue(du, is_near);
+        return hn::Le(gap2, reach2_);
     }
-    while (count > 0 && kept[count - 1] >= query.count) --count;  // the padding
+
+  private:
+    std::array<hn::Vec<hn::CappedTag<float, kMotionBlock>>, D> low_, high_;
+    hn::Vec<hn::CappedTag<float, kMotionBlock>> reach2_;
+};
+
+template <int D>
+std::size_t ways_within(const WayQuery& query, Index* kept) {
+    const BoxLanes<D> box(query.box, query.reach);
+    std::size_t count = 0;
+    for (std::size_t w = 0; w < query.count; ++w) {
+        bool is_near = false;
+        for (std::size_t first = 0; first < kMotionBlock; first += hn::Lanes(box.d))
+            is_near |= !hn::AllFalse(box.d, box.near(query.sights[w], first));
+        kept[count] = static_cast<Index>(w);
+        count += is_near;
+    }
     return count;
 }
 
-std::size_t filter_boxes_of(const BoxQuery& query, Index* kept) {
-    return query.dimensions == 2 ? boxes_within<2>(query, kept) : boxes_within<3>(query, kept);
+// Boxes decide first.
+template <class S, int D>
+std::size_t list_within(const NearQuery<S>& query, PairEntry* found) {
+    const BoxLanes<D> box(query.box, query.reach);
+    const hn::RebindToUnsigned<decltype(box.d)> du;
+    static_assert(sizeof(Index) == sizeof(hn::TFromD<decltype(du)>));
+    // Iota is put together number by number.
+    alignas(64) static constexpr std::array<Index, kMotionBlock> kPlaces{0, 1, 2,  3,  4,  5,  6,  7,
+                                                                         8, 9, 10, 11, 12, 13, 14, 15};
+    auto numbers = hn::Load(du, kPlaces.data());
+    const auto next = hn::Set(du, static_cast<Index>(hn::Lanes(du)));
+    std::size_t count = 0;
+    for (std::size_t w = 0; w < query.way_count; ++w) {
+        for (std::size_t first = 0; first < kMotionBlock; first += hn::Lanes(box.d), numbers = hn::Add(numbers, next)) {
+            const auto is_near = hn::RebindMask(du, box.near(query.sights[w], first));
+            // Compressing into memory is slow on some machines.
+            hn::StoreU(hn::Compress(numbers, is_near), du, query.maybe + count);
+            count += hn::CountTrue(du, is_near);
+        }
+    }
+    const CentreLanes<S, D> centre(query.centre, query.centre_points);
+    const PairLanes<S> reach2(query.reach * query.reach);
+    constexpr std::size_t kRecord = 4 * (D + 1);
+    std::size_t written = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+        const auto entry = static_cast<PairEntry>(query.maybe[n]);
+        const PairWay<S>& way = query.ways[way_of(entry)];
+        found[written] = entry;
+        written +=
+            centre.displaced(way.offset).is_within(reach2, query.records + (way.first + place_of(entry)) * kRecord);
+    }
+    return written;
 }
 
-void filter_float(const ReachQuery<float>& query, Index* found, Index* end_of_way) {
-    query.dimensions == 2 ? filter<float, 2>(query, found, end_of_way) : filter<float, 3>(query, found, end_of_way);
-}
-void filter_double(const ReachQuery<double>& query, Index* found, Index* end_of_way) {
-    query.dimensions == 2 ? filter<double, 2>(query, found, end_of_way) : filter<double, 3>(query, found, end_of_way);
+template <class S, int D, bool HasSeen>
+std::size_t prune(const PruneQuery<S>& query) {
+    const CentreLanes<S, D> centre(query.centre, query.centre_points);
+    const PairLanes<S> reach2(query.reach * query.reach);
+    constexpr std::size_t kRecord = 4 * (D + 1);
+    std::size_t near = 0, far = 0;
+    for (std::size_t e = 0; e < query.count; ++e) {
+        const PairEntry entry = query.entries[e];
+        const PairWay<S>& way = query.ways[way_of(entry)];
+        const bool is_near =
+            centre.displaced(way.offset).is_within(reach2, query.records + (way.first + place_of(entry)) * kRecord);
+        query.far[far] = entry;
+        query.entries[near] = entry;
+        if constexpr (HasSeen) {
+            const std::uint16_t seen = query.seen[e];
+            query.far_seen[far] = seen;
+            query.seen[near] = seen;
+        }
+        near += is_near;
+        far += !is_near;
+    }
+    std::copy(query.far, query.far + far, query.entries + near);
+    if constexpr (HasSeen) std::copy(query.far_seen, query.far_seen + far, query.seen + near);
+    return near;
 }
 
-void prune_float(const PruneQuery<float>& query) {
-    prune_any(query);
+template <class S>
+std::size_t prune_any(const PruneQuery<S>& query) {
+    if (query.dimensions == 2) return query.seen == nullptr ? prune<S, 2, false>(query) : prune<S, 2, true>(query);
+    return query.seen == nullptr ? prune<S, 3, false>(query) : prune<S, 3, true>(query);
 }
-void prune_double(const PruneQuery<double>& query) {
-    prune_any(query);
+
+std::size_t filter_ways_of(const WayQuery& query, Index* kept) {
+    return query.dimensions == 2 ? ways_within<2>(query, kept) : ways_within<3>(query, kept);
+}
+
+std::size_t list_near_float(const NearQuery<float>& query, PairEntry* found) {
+    return query.dimensions == 2 ? list_within<float, 2>(query, found) : list_within<float, 3>(query, found);
+}
+std::size_t list_near_double(const NearQuery<double>& query, PairEntry* found) {
+    return query.dimensions == 2 ? list_within<double, 2>(query, found) : list_within<double, 3>(query, found);
+}
+
+std::size_t prune_float(const PruneQuery<float>& query) {
+    return prune_any(query);
+}
+std::size_t prune_double(const PruneQuery<double>& query) {
+    return prune_any(query);
 }
 
 }  // namespace headrace::solver::HWY_NAMESPACE
@@ -166,28 +192,28 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace headrace::solver {
 
-HWY_EXPORT(filter_boxes_of);
-HWY_EXPORT(filter_float);
-HWY_EXPORT(filter_double);
+HWY_EXPORT(filter_ways_of);
+HWY_EXPORT(list_near_float);
+HWY_EXPORT(list_near_double);
 HWY_EXPORT(prune_float);
 HWY_EXPORT(prune_double);
 
-std::size_t filter_boxes(const BoxQuery& query, Index* kept) {
-    return HWY_DYNAMIC_DISPATCH(filter_boxes_of)(query, kept);
+std::size_t filter_ways(const WayQuery& query, Index* kept) {
+    return HWY_DYNAMIC_DISPATCH(filter_ways_of)(query, kept);
 }
 
-void filter_reach(const ReachQuery<float>& query, Index* found, Index* end_of_way) {
-    HWY_DYNAMIC_DISPATCH(filter_float)(query, found, end_of_way);
+std::size_t list_near(const NearQuery<float>& query, PairEntry* found) {
+    return HWY_DYNAMIC_DISPATCH(list_near_float)(query, found);
 }
-void filter_reach(const ReachQuery<double>& query, Index* found, Index* end_of_way) {
-    HWY_DYNAMIC_DISPATCH(filter_double)(query, found, end_of_way);
+std::size_t list_near(const NearQuery<double>& query, PairEntry* found) {
+    return HWY_DYNAMIC_DISPATCH(list_near_double)(query, found);
 }
 
-void prune_to_reach(const PruneQuery<float>& query) {
-    HWY_DYNAMIC_DISPATCH(prune_float)(query);
+std::size_t prune_to_reach(const PruneQuery<float>& query) {
+    return HWY_DYNAMIC_DISPATCH(prune_float)(query);
 }
-void prune_to_reach(const PruneQuery<double>& query) {
-    HWY_DYNAMIC_DISPATCH(prune_double)(query);
+std::size_t prune_to_reach(const PruneQuery<double>& query) {
+    return HWY_DYNAMIC_DISPATCH(prune_double)(query);
 }
 
 }  // namespace headrace::solver
