@@ -59,9 +59,10 @@ void define_options(CLI::App& app, Options& options) {
         ->check(CLI::Range(1.5, 6.0))
         ->capture_default_str();
     app.add_option("--strategy", options.strategies,
-                   "Strategies of the plain cases; none: clusters, and below 300,000 particles buffer and broadcast")
+                   "Strategies of the plain cases; none: clusters and half, and below 300,000 particles buffer and "
+                   "broadcast. Memory is that of clusters, or of half where clusters are left out")
         ->delimiter(',')
-        ->check(CLI::IsMember({"clusters", "buffer", "broadcast"}));
+        ->check(CLI::IsMember({"clusters", "half", "buffer", "broadcast"}));
     app.add_option(
            "--threads", options.threads,
            "Thread counts, taking turns; none: 1, and as many as there are cores in the 3D dam breaks and from\n"
@@ -93,7 +94,8 @@ void define_options(CLI::App& app, Options& options) {
 }
 
 bool has(const Options& options, PairStrategy strategy, bool is_large) {
-    if (options.strategies.empty()) return strategy == PairStrategy::clusters || !is_large;
+    if (options.strategies.empty())
+        return strategy == PairStrategy::clusters || strategy == PairStrategy::half || !is_large;
     return std::count(options.strategies.begin(), options.strategies.end(), pair_strategy_name(strategy)) > 0;
 }
 
@@ -109,7 +111,7 @@ proto::Status run_plain(int dimensions, bool is_jittered, const Options& options
             PlainCase one{dimensions, support, particles, {}, false, is_jittered};
             const bool is_large = particles >= kLarge;
             for (const PairStrategy strategy :
-                 {PairStrategy::clusters, PairStrategy::buffer, PairStrategy::broadcast}) {
+                 {PairStrategy::clusters, PairStrategy::half, PairStrategy::buffer, PairStrategy::broadcast}) {
                 if (has(options, strategy, is_large)) one.strategies.push_back(strategy);
             }
             const bool is_usual = support == 3.0 && !is_jittered;

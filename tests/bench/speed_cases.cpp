@@ -37,11 +37,17 @@ void step_plain(PlainFluid& fluid, PlainSums& sums, StageSeconds& seconds) {
     sums.compute(fluid, seconds);
 }
 
+// What the flow is made with, and whose memory and instruction sets are measured.
+PairStrategy usual_strategy(const PlainCase& one) {
+    const bool is_half = !one.strategies.empty() && one.strategies.front() == PairStrategy::half;
+    return is_half ? PairStrategy::half : PairStrategy::clusters;
+}
+
 // Flow until it has stirred the lattice.
 PlainFluid make_developed_flow(const PlainCase& one, int warmup) {
     const int edge = static_cast<int>(std::lround(std::pow(static_cast<double>(one.particles), 1.0 / one.dimensions)));
     PlainFluid fluid = make_plain_fluid(one.dimensions, edge, one.support_over_dp);
-    const auto sums = make_plain_sums(PairStrategy::clusters, one.dimensions);
+    const auto sums = make_plain_sums(usual_strategy(one), one.dimensions);
     StageSeconds seconds;
     sums->compute(fluid, seconds);
     start_plain_fluid(fluid);
@@ -94,9 +100,10 @@ SpeedRow describe(const PlainCase& one, const PlainFluid& fluid) {
     return row;
 }
 
-// Turns of the contests that share an instruction set.
+// Turns of the contests that share an instruction set. bytes: of the strategy that was measured.
 proto::Status hold_contests(const PlainFluid& developed, double bytes, SpeedRow row, const std::string& isa,
-                            const std::vector<PairStrategy>& strategies, const SpeedPlan& plan, const SpeedSink& sink) {
+                            const std::vector<PairStrategy>& strategies, PairStrategy measured, const SpeedPlan& plan,
+                            const SpeedSink& sink) {
     const solver::OnlyInstructionSet only(isa);
     row.isa = isa;
     std::vector<Contest> contests;
@@ -106,7 +113,7 @@ proto::Status hold_contests(const PlainFluid& developed, double bytes, SpeedRow 
             one.row = row;
             one.row.strategy = pair_strategy_name(strategy);
             one.row.threads = threads;
-            one.row.bytes_per_particle = strategy == PairStrategy::clusters ? bytes : 0.0;
+            one.row.bytes_per_particle = strategy == measured ? bytes : 0.0;
             one.fluid = developed;
             one.sums = make_plain_sums(strategy, row.dimensions);
             StageSeconds first;
@@ -263,19 +270,20 @@ proto::Status time_plain(const PlainCase& one, const SpeedPlan& plan, const Spee
     if (!is_sound(developed)) return faulted("the plain fluid broke before it was timed");
     double bytes = 0.0;
     {
-        const auto sums = make_plain_sums(PairStrategy::clusters, one.dimensions);
+        const auto sums = make_plain_sums(usual_strategy(one), one.dimensions);
         StageSeconds seconds;
         sums->compute(developed, seconds);
         bytes = memory.growth() / static_cast<double>(developed.size());
     }
     const SpeedRow row = describe(one, developed);
+    const PairStrategy usual = usual_strategy(one);
     const std::vector<std::string> sets = solver::instruction_sets();
-    if (auto status = hold_contests(developed, bytes, row, sets.front(), one.strategies, plan, sink); !status)
+    if (auto status = hold_contests(developed, bytes, row, sets.front(), one.strategies, usual, plan, sink); !status)
         return status;
     SpeedPlan alone = plan;
     alone.threads.resize(1);
     for (std::size_t k = 1; k < sets.size() && one.all_instruction_sets; ++k) {
-        if (auto status = hold_contests(developed, bytes, row, sets[k], {PairStrategy::clusters}, alone, sink); !status)
+        if (auto status = hold_contests(developed, bytes, row, sets[k], {usual}, usual, alone, sink); !status)
             return status;
     }
     return proto::Done{};

@@ -71,16 +71,21 @@ struct PlainPass {
     static constexpr std::size_t kFirstOwn = 0, kOwnFields = D + 1, kCentreFields = 0;
     static constexpr double kAlpha = 0.02;  // of the artificial viscosity
 
-    explicit PlainPass(PlainFluid& of) : kernel(of.support), support_over_c(of.support / of.sound_speed), fluid(of) {}
+    explicit PlainPass(PlainFluid& of)
+        : kernel(of.support),
+          viscosity(kAlpha * 0.5 * of.support / of.sound_speed),
+          diffusion(solver::kUsualDiffusion * 0.5 * of.support * of.sound_speed),
+          fluid(of) {}
 
     solver::WendlandC2<D> kernel;
-    double support_over_c;  // [s]
+    double viscosity;  // alpha h / c0 [s]
+    double diffusion;  // xi h c0 [m^2/s]
     PlainFluid& fluid;
 
     template <class T>
     struct Sums {
         std::array<T, D> push{};
-        T divergence{}, diffusion{};
+        T rate{};  // of delta
     };
 
     std::array<const float*, 0> centre_fields() const { return {}; }
@@ -101,26 +106,61 @@ struct PlainPass {
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self& self, const solver::Pair<D, T>& pair, const Neighbour& neighbour,
                                      Sums<T>& sums) const {
+        const Terms<T> terms = terms_of<T>(self, pair, neighbour);
+        add<T>(pair.x_ij, pair.V_j * kernel.F(pair.r), terms, terms.diffusion, self(D), sums);
+    }
+
+    // The second point sees x_ij and the diffusion the other way round.
+    template <class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE void exchange(const Self& self, const solver::Pair<D, T>& pair, const T& V_i,
+                                         const Neighbour& neighbour, Sums<T>& sums, Sums<T>& reaction) const {
+        const Terms<T> terms = terms_of<T>(self, pair, neighbour);
         const T F = kernel.F(pair.r);
-        std::array<T, D> v_ij;
-        for (int k = 0; k < D; ++k) v_ij[k] = self(k) - neighbour(k);
-        sums.divergence += solver::velocity_divergence<D, T>(pair.V_j, F, pair.x_ij, v_ij);
-        sums.diffusion += solver::plain_diffusion<D, T>(pair, F, neighbour(D) - self(D), T(0.0));
-        // With the linear state equation p_i + p_j = rho0 c0^2 (delta_i + delta_j). Artificial viscosity adds to it:
-        // one factor of x_ij for both.
-        const T approach = solver::approach_rate<D, T>(pair, solver::dot<D, T>(v_ij, pair.x_ij));
-        const T weight = self(D) + neighbour(D) - kAlpha * 0.5 * support_over_c * approach;
-        solver::PressureSums<D, T> pressure;
-        pressure.pB_grad = sums.push;
-        solver::accumulate_difference<D, T>(pair.x_ij, pair.V_j * F * weight, pressure);
-        sums.push = pressure.pB_grad;
+        add<T>(pair.x_ij, pair.V_j * F, terms, terms.diffusion, self(D), sums);
+        std::array<T, D> x_ji;
+        for (int k = 0; k < D; ++k) x_ji[k] = -pair.x_ij[k];
+        add<T>(x_ji, V_i * F, terms, -terms.diffusion, neighbour(D), reaction);
     }
 
     void store(solver::Index i, const Sums<double>& sums) const {
         const double c = fluid.sound_speed, rho = 1.0 + static_cast<double>(fluid.delta[i]);  // over rho0
         for (int k = 0; k < D; ++k) fluid.a[k][i] = static_cast<float>(-c * c / rho * sums.push[k]);
-        fluid.delta_rate[i] = static_cast<float>(solver::kUsualDiffusion * 0.5 * fluid.support * c * sums.diffusion -
-                                                 rho * sums.divergence);
+        fluid.delta_rate[i] = static_cast<float>(sums.rate);
+    }
+
+  private:
+    // Per V F.
+    template <class T>
+    struct Terms {
+        T divergence, diffusion, pressure;
+    };
+
+    template <class T, class Self, class Neighbour>
+    HEADRACE_ALWAYS_INLINE Terms<T> terms_of(const Self& self, const solver::Pair<D, T>& pair,
+                                             const Neighbour& neighbour) const {
+        std::array<T, D> v_ij;
+        for (int k = 0; k < D; ++k) v_ij[k] = self(k) - neighbour(k);
+        Terms<T> terms;
+        terms.divergence = solver::velocity_divergence<D, T>(T(1.0), T(1.0), pair.x_ij, v_ij);
+        solver::Pair<D, T> per_volume = pair;
+        per_volume.V_j = T(1.0);
+        terms.diffusion = diffusion * solver::plain_diffusion<D, T>(per_volume, T(1.0), neighbour(D) - self(D), T(0.0));
+        // With the linear state equation p_i + p_j = rho0 c0^2 (delta_i + delta_j). Artificial viscosity adds to it:
+        // one factor of x_ij for both.
+        const T approach = solver::approach_rate<D, T>(pair, solver::dot<D, T>(v_ij, pair.x_ij));
+        terms.pressure = self(D) + neighbour(D) - viscosity * approach;
+        return terms;
+    }
+
+    // To the sums of a point that sees the other at -x_ij. VF: V of the other, times F.
+    template <class T>
+    HEADRACE_ALWAYS_INLINE static void add(const std::array<T, D>& x_ij, const T& VF, const Terms<T>& terms,
+                                           const T& diffusion, const T& delta, Sums<T>& sums) {
+        sums.rate += VF * (diffusion - (1.0 + delta) * terms.divergence);
+        solver::PressureSums<D, T> pressure;
+        pressure.pB_grad = sums.push;
+        solver::accumulate_difference<D, T>(x_ij, VF * terms.pressure, pressure);
+        sums.push = pressure.pB_grad;
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include "server/solver/neighbours.h"
 #include "server/solver/pairs/cluster_order.h"
+#include "server/solver/pairs/half_sums-inl.h"
 #include "server/solver/pairs/packed_fields-inl.h"
 #include "server/solver/pairs/pair_neighbours.h"
 #include "server/solver/pairs/pair_sums-inl.h"
@@ -26,7 +27,7 @@ using solver::HWY_NAMESPACE::PairLanes;
 
 // ---- clusters -------------------------------------------------------------------------------------------------------
 
-template <int D>
+template <int D, bool IsHalf>
 class ClusterSums final : public PlainSums {
   public:
     void compute(PlainFluid& fluid, StageSeconds& seconds) override {
@@ -43,14 +44,21 @@ class ClusterSums final : public PlainSums {
             solver::NeighbourInput in;
             in.dimensions = D;
             in.fluid = {&order_, &fluid.x, fluid.V, fluid.size()};
-            in.reach = {fluid.support, kSkin * fluid.spacing, kInnerSkin * fluid.spacing, fluid.domain.max, nullptr};
+            in.reach = {fluid.support, kSkin * fluid.spacing, kInnerSkin * fluid.spacing, fluid.domain.max, nullptr,
+                        IsHalf};
             neighbours_.find(in);
+            if constexpr (IsHalf) colours_.build(neighbours_.among_fluid());
             has_lists_ = true;
             ++sorts_;
             seconds.list += clock.lap();
         }
         const PlainPass<D> pass(fluid);
         fields_.fill(pass.fluid_fields(), fluid.size());
+        if constexpr (IsHalf) {
+            half_sums_.run(pass, neighbours_.fluid(), neighbours_.among_fluid(), colours_, fields_.fluid());
+            seconds.pair += clock.lap();
+            return;
+        }
         const solver::HWY_NAMESPACE::NeighbourSource<float> source{&neighbours_.among_fluid(), &neighbours_.fluid(),
                                                                    fields_.fluid()};
         solver::parallel_for(source.list->blocks().size(), 2, [&](std::size_t first, std::size_t last, int) {
@@ -64,12 +72,14 @@ class ClusterSums final : public PlainSums {
     long sorts() const override { return sorts_; }
 
   private:
-    // [spacings]. With one light loop a step pruning pays in 2D only (3D: 0.6 and 0.2 are 2 % slower).
-    static constexpr double kSkin = D == 2 ? 1.0 : 0.5, kInnerSkin = D == 2 ? 0.3 : kSkin;
+    // [spacings]. With one light loop a step pruning does not pay for whole lists in 3D.
+    static constexpr double kSkin = D == 2 || IsHalf ? 0.8 : 0.5, kInnerSkin = D == 2 ? 0.3 : (IsHalf ? 0.25 : kSkin);
 
     solver::ClusterOrder order_;
     solver::PairNeighboursOf<float> neighbours_;
     solver::HWY_NAMESPACE::PackedFields<float> fields_;
+    solver::BlockColours colours_;  // half lists
+    solver::HWY_NAMESPACE::HalfSums<D, float> half_sums_;
     bool has_lists_{false};
     long sorts_{};
 };
@@ -261,7 +271,8 @@ class CellSums final : public PlainSums {
 
 template <int D>
 PlainSums* make_sums_in(PairStrategy strategy) {
-    if (strategy == PairStrategy::clusters) return new ClusterSums<D>();
+    if (strategy == PairStrategy::clusters) return new ClusterSums<D, false>();
+    if (strategy == PairStrategy::half) return new ClusterSums<D, true>();
     if (strategy == PairStrategy::buffer) return new CellSums<D, false>();
     return new CellSums<D, true>();
 }

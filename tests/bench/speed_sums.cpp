@@ -16,6 +16,8 @@ std::string_view pair_strategy_name(PairStrategy strategy) {
     switch (strategy) {
         case PairStrategy::clusters:
             return "clusters";
+        case PairStrategy::half:
+            return "half";
         case PairStrategy::buffer:
             return "buffer";
         case PairStrategy::broadcast:

@@ -1,6 +1,7 @@
 // The pair sums of the plain fluid (speed_plain.h) by three strategies, all with the same terms, in single precision:
 //
 //   clusters   the engine of server/solver/pairs: lists of 4 x 4 points, reused over steps
+//   half       the same with each pair listed once, for both of its points
 //   buffer     cells sorted every step; the candidates of a cell copied once, then as many of them as a vector has
 //   lanes
 //              with one particle at a time
@@ -14,7 +15,7 @@
 
 namespace headrace::bench {
 
-enum class PairStrategy { clusters, buffer, broadcast };
+enum class PairStrategy { clusters, half, buffer, broadcast };
 
 std::string_view pair_strategy_name(PairStrategy strategy);
 

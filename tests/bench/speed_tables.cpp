@@ -79,9 +79,10 @@ std::string models_table(const std::vector<SpeedRow>& rows) {
     return text;
 }
 
-// Rows: supports; columns: sizes.
+// Rows: supports, and lists that name each pair for both of its points or once; columns: sizes.
 std::string engine_table(const std::vector<SpeedRow>& rows, const std::string& isa) {
-    std::string head = "| plain terms, one thread, " + isa + " | R/dp | neighbours |", rule = "|---|---|---|";
+    std::string head = "| plain terms, one thread, " + isa + " | R/dp | neighbours | lists |",
+                rule = "|---|---|---|---|";
     std::vector<Size> sizes;
     for (const Size& size : kSizes) {
         const auto is_measured = [&](const SpeedRow& row) {
@@ -97,21 +98,24 @@ std::string engine_table(const std::vector<SpeedRow>& rows, const std::string& i
     for (const int dimensions : {2, 3}) {
         const std::string name = text_of("plain_%dd", dimensions);
         for (const double support : find_supports(rows, name)) {
-            const auto of = [&](const Size& size) {
-                return find(rows, [&](const SpeedRow& row) {
-                    return row.name == name && row.strategy == "clusters" && row.threads == 1 && row.isa == isa &&
-                           is_of_support(row, support) && is_of_size(row, size);
-                });
-            };
-            std::string cells;
-            double neighbours = 0.0;
-            for (const Size& size : sizes) {
-                const SpeedRow* row = of(size);
-                if (row != nullptr) neighbours = row->neighbours;
-                cells += " " + figure(row) + " |";
+            for (const std::string strategy : {"clusters", "half"}) {
+                const auto of = [&](const Size& size) {
+                    return find(rows, [&](const SpeedRow& row) {
+                        return row.name == name && row.strategy == strategy && row.threads == 1 && row.isa == isa &&
+                               is_of_support(row, support) && is_of_size(row, size);
+                    });
+                };
+                std::string cells;
+                double neighbours = 0.0;
+                for (const Size& size : sizes) {
+                    const SpeedRow* row = of(size);
+                    if (row != nullptr) neighbours = row->neighbours;
+                    cells += " " + figure(row) + " |";
+                }
+                if (neighbours > 0.0)
+                    text += text_of("| %dD | %.3g | %.0f |", dimensions, support, neighbours) +
+                            (strategy == "half" ? " half |" : " whole |") + cells + "\n";
             }
-            if (neighbours > 0.0)
-                text += text_of("| %dD | %.3g | %.0f |", dimensions, support, neighbours) + cells + "\n";
         }
     }
     return text;
@@ -125,10 +129,14 @@ std::string ratio_table(const std::vector<SpeedRow>& rows, const std::string& is
         int threads;
         std::string title;
     };
-    const Column columns[] = {
-        {"buffer", nullptr, 1, "buffer"},          {"broadcast", nullptr, 1, "broadcast"},
-        {"clusters", "AVX2", 1, "AVX2"},           {"clusters", "SSE4", 1, "SSE4"},
-        {"clusters", "SCALAR", 1, "without SIMD"}, {"clusters", nullptr, 2, "two threads together"}};
+    const Column columns[] = {{"half", nullptr, 1, "half lists"},
+                              {"buffer", nullptr, 1, "buffer"},
+                              {"broadcast", nullptr, 1, "broadcast"},
+                              {"clusters", "AVX2", 1, "AVX2"},
+                              {"clusters", "SSE4", 1, "SSE4"},
+                              {"clusters", "SCALAR", 1, "without SIMD"},
+                              {"clusters", nullptr, 2, "two threads together"},
+                              {"half", nullptr, 2, "the same, half lists"}};
     std::string text = text_of("| R/dp = %.3g, speed over that of clusters | particles |", support), rule = "|---|---|";
     for (const Column& column : columns) {
         text += " " + column.title + " |";
@@ -166,8 +174,8 @@ std::string ratio_table(const std::vector<SpeedRow>& rows, const std::string& is
 // One line per case and size: which strategy is the fastest.
 std::string strategy_table(const std::vector<SpeedRow>& rows, const std::string& isa) {
     std::string text =
-        "| case | particles | R/dp | clusters | buffer | broadcast | fastest | sort, list, pair, integrate of clusters "
-        "[ns] | bytes a particle |\n|---|---|---|---|---|---|---|---|---|\n";
+        "| case | particles | R/dp | clusters | half | buffer | broadcast | fastest | sort, list, pair, integrate of "
+        "clusters [ns] | bytes a particle |\n|---|---|---|---|---|---|---|---|---|---|\n";
     for (const std::string name : {"plain_2d_jittered", "plain_2d", "plain_3d_jittered", "plain_3d"}) {
         for (const Size& size : kSizes) {
             for (const double support : find_supports(rows, name)) {
@@ -181,12 +189,12 @@ std::string strategy_table(const std::vector<SpeedRow>& rows, const std::string&
                 if (clusters == nullptr) continue;
                 const SpeedRow* fastest = clusters;
                 std::string cells;
-                for (const char* strategy : {"clusters", "buffer", "broadcast"}) {
+                for (const char* strategy : {"clusters", "half", "buffer", "broadcast"}) {
                     const SpeedRow* row = of(strategy);
                     if (row != nullptr && row->Mpsps_per_core > fastest->Mpsps_per_core) fastest = row;
                     cells += " " + figure(row) + " |";
                 }
-                const bool is_alone = of("buffer") == nullptr && of("broadcast") == nullptr;
+                const bool is_alone = of("half") == nullptr && of("buffer") == nullptr && of("broadcast") == nullptr;
                 text += "| " + name + " | " + with_thousands(static_cast<long>(clusters->particles)) +
                         text_of(" | %.3g |", support) + cells + " " + (is_alone ? "-" : fastest->strategy) +
                         text_of(" | %.3g, %.3g, %.3g, %.3g | %.0f |\n", clusters->ns_sort, clusters->ns_list,

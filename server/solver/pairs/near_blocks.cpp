@@ -48,6 +48,7 @@ void NearBlocks<S>::find(std::size_t begin, std::size_t end) {
     const int dimensions = setting_.centres->dimensions();
     blocks_.clear();
     found_.clear();
+    const std::size_t own = begin / (kMotionBlock * kClusterSize);
     std::array<int, 3> image{};
     ++look_;
     ++look_of_image_;
@@ -56,6 +57,7 @@ void NearBlocks<S>::find(std::size_t begin, std::size_t end) {
         const Index last = (run.end - 1) / kClusterSize;
         for (Index n = run.begin / kClusterSize; n <= last; ++n) {
             const auto block = static_cast<Index>(setting_.order->cluster_at(n) / kMotionBlock);
+            if (setting_.is_half && block < own) continue;
             if (std::exchange(stamp_of_image_[block], look_of_image_) == look_of_image_) continue;
             if (std::exchange(stamp_[block], look_) != look_) blocks_.push_back(block);
             found_.push_back({block, image});
@@ -72,6 +74,12 @@ void NearBlocks<S>::find(std::size_t begin, std::size_t end) {
     }
     std::sort(found_.begin(), found_.end());
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+}
+
+// Of a block with itself, displaced this way or the other, one is enough.
+template <class S>
+bool NearBlocks<S>::is_other_half(const Found& found, std::size_t block) const {
+    return setting_.is_half && found.block == block && found.image < std::array<int, 3>{};
 }
 
 template <class S>
@@ -99,11 +107,16 @@ void NearBlocks<S>::add_ways(std::size_t first, std::size_t end, std::vector<Pai
     }
     sights_.clear();
     parts_used_ = 0;
+    const std::size_t block = first / kMotionBlock;
+    const Found own{static_cast<Index>(block), {}};
+    if (setting_.is_half) add_way(first, own, first, end, box, ways);
     for (const Found& found : found_) {
+        if (is_other_half(found, block)) continue;
+        const bool is_own = setting_.is_half && found == own;
         const std::size_t block_end = std::min((found.block + 1) * kMotionBlock, neighbours.clusters());
         for (std::size_t c = found.block * kMotionBlock; c < block_end;) {
             const std::size_t to = neighbours.end_of_reference(c);
-            add_way(first, found, c, to, box, ways);
+            if (!is_own || c >= end) add_way(first, found, c, to, box, ways);
             c = to;
         }
     }

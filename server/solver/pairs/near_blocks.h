@@ -30,6 +30,7 @@ class NearBlocks {
         double reach{};               // [m] that ways lead to
         double far_reach{};           // [m] of the blocks
         Vec3 period{};                // [m]
+        bool is_half{};               // are blocks before the centres' left out, and, of their own, half of the images?
     };
 
     void start(const Setting& setting);
@@ -39,7 +40,8 @@ class NearBlocks {
     const std::vector<Index>& blocks() const { return blocks_; }  // each once
 
     // Adds the ways from the centre clusters [first, end), which have one reference point, to all clusters within reach
-    // of the box around them, and some others. sights() are those of the ways added.
+    // of the box around them, and some others. sights() are those of the ways added. Half: the first one leads to the
+    // centres' own clusters, which have no others before them.
     void add_ways(std::size_t first, std::size_t end, std::vector<PairWay<S>>& ways);
     const std::vector<WaySight>& sights() const { return sights_; }
 
@@ -54,6 +56,7 @@ class NearBlocks {
         auto operator<=>(const Found&) const = default;
     };
 
+    bool is_other_half(const Found& found, std::size_t block) const;
     void add_way(std::size_t centre, const Found& found, std::size_t first, std::size_t end, const ClusterBox& box,
                  std::vector<PairWay<S>>& ways);
 

@@ -96,14 +96,14 @@ void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, c
     skin_ = options.skin;
     inner_skin_ = std::min(options.inner_skin, options.skin);
     far_skin_ = kFarSkins * options.skin;
-    can_mend_ = &centres == &neighbours && !order.is_periodic() && options.visibility == nullptr;
+    can_mend_ = &centres == &neighbours && !order.is_periodic() && options.visibility == nullptr && !options.is_half;
     const std::size_t count = (centres.clusters() + kMotionBlock - 1) / kMotionBlock;
     blocks_.resize(count);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
     const double reach = (options.support + options.skin) * (1.0 + kRounding);
     const double far_reach = (options.support + skin_ + far_skin_) * (1.0 + kRounding);
     for (Scratch& scratch : scratch_)
-        scratch.near.start({&centres, &x, &neighbours, &order, reach, far_reach, options.period});
+        scratch.near.start({&centres, &x, &neighbours, &order, reach, far_reach, options.period, options.is_half});
     parallel_for(count, 4, [&](std::size_t first, std::size_t last, int thread) {
         for (std::size_t b = first; b < last; ++b)
             build_block(b, centres, x, neighbours, options, scratch_[static_cast<std::size_t>(thread)]);
@@ -140,6 +140,7 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
             query.centre = centres.record(c);
             query.centre_points = std::min(kClusterSize, centres.size() - c * kClusterSize);
             query.box = near.box_of(c);
+            if (options.is_half) query.skipped = c % kMotionBlock;
             PairRow& row = block.rows[c - first];
             row.begin = static_cast<Index>(scratch.used);
             scratch.used += list_near(query, &scratch.entries[scratch.used]);

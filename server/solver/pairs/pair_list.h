@@ -68,6 +68,9 @@ struct ReachOptions {
     double inner_skin{};                 // [m] of the pruned list
     Vec3 period{};                       // [m]
     const PairVisibility* visibility{};  // null: all pairs may interact
+    // Is each pair listed once, by the cluster that comes first? Each cluster lists itself, as its first entry. Only
+    // where centres and neighbours are the same points, and all may interact.
+    bool is_half{};
 };
 
 // Do the loops see all pairs within the support, after the motion since the list was made?

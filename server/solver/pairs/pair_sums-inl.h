@@ -40,32 +40,54 @@ struct NeighbourSource {
     const S* fields{};
 };
 
-// Adds the pairs of a centre cluster's points with one kind of neighbours. IsHidden: some may not interact.
-template <bool IsWall, bool IsHidden, int D, std::size_t Fields, class S, class Pass, class Self>
-HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<PairLanes<S>, D>& x_i,
-                          std::size_t first_point, const PairBlock<S>& block, std::size_t c,
-                          const NeighbourSource<S>& source, typename Pass::template Sums<PairLanes<S>>& sums) {
+// Some of the points of a centre's cluster, and the neighbours that its entries lead to.
+template <int D, class S>
+struct CentreSight {
     using T = PairLanes<S>;
-    constexpr std::size_t kRecord = 4 * (D + 1), kFields = 4 * Fields;
-    const PairRow row = block.rows[c];
-    const PairEntry* const entries = block.entries.data();
-    const PairWay<S>* const ways = block.ways.data() + row.ways;
-    const S* const records = source.points->record(0);
-    struct Met {
+
+    std::array<T, D> x;
+    const PairWay<S>* ways;
+    const S* records;  // of all neighbours
+
+    CentreSight(const S* record, std::size_t first_point, const PairWay<S>* ways_of_row, const S* of_neighbours)
+        : ways(ways_of_row), records(of_neighbours) {
+        for (int k = 0; k < D; ++k) x[k] = spread_four<S>(record + 4 * k + first_point);
+    }
+
+    HWY_INLINE std::size_t cluster(PairEntry entry) const {
+        return std::size_t{ways[way_of(entry)].first} + place_of(entry);
+    }
+    HWY_INLINE Pair<D, T> meet(PairEntry entry) const {
+        const PairWay<S>& way = ways[way_of(entry)];
+        const S* record = records + cluster(entry) * (4 * (D + 1));
         Pair<D, T> pair;
-        std::size_t cluster;
-    };
-    const auto meet = [&](Index e) {
-        const PairWay<S>& way = ways[way_of(entries[e])];
-        Met met;
-        met.cluster = std::size_t{way.first} + place_of(entries[e]);
-        const S* record = records + met.cluster * kRecord;
-        Pair<D, T>& pair = met.pair;
-        for (int k = 0; k < D; ++k)
-            pair.x_ij[k] = (x_i[k] + load_one<S>(&way.offset[k])) - load_four<S>(record + 4 * k);
+        for (int k = 0; k < D; ++k) pair.x_ij[k] = (x[k] + load_one<S>(&way.offset[k])) - load_four<S>(record + 4 * k);
         pair.r2 = dot<D, T>(pair.x_ij, pair.x_ij);
         pair.r = square_root<S>(pair.r2);
         pair.V_j = load_four<S>(record + 4 * D);
+        return pair;
+    }
+};
+
+template <std::size_t Fields, class S>
+HWY_INLINE FieldsOf<PairLanes<S>, Fields> load_fields(const S* of_cluster) {
+    FieldsOf<PairLanes<S>, Fields> loaded;
+    if constexpr (Fields == 0) loaded = {};
+    for (std::size_t f = 0; f < Fields; ++f) loaded.field[f] = load_four<S>(of_cluster + 4 * f);
+    return loaded;
+}
+
+// Adds the pairs of a centre cluster's points with one kind of neighbours. IsHidden: some may not interact.
+template <bool IsWall, bool IsHidden, int D, std::size_t Fields, class S, class Pass, class Self>
+HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const S* record, std::size_t first_point,
+                          const PairBlock<S>& block, std::size_t c, const NeighbourSource<S>& source,
+                          typename Pass::template Sums<PairLanes<S>>& sums) {
+    using T = PairLanes<S>;
+    const PairRow row = block.rows[c];
+    const PairEntry* const entries = block.entries.data();
+    const CentreSight<D, S> sight(record, first_point, block.ways.data() + row.ways, source.points->record(0));
+    const auto meet = [&](Index e) {
+        Pair<D, T> pair = sight.meet(entries[e]);
         if constexpr (IsHidden) {
             // Rare, beside thin panels: hidden neighbours have no volume.
             alignas(64) S seen[T::kCount];
@@ -75,21 +97,19 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const std::array<P
             __builtin_memcpy(&weight.v, seen, sizeof weight.v);
             pair.V_j *= weight;
         }
-        return met;
+        return pair;
     };
     // One ahead, where there are registers enough: the square root takes as long as the rest.
     constexpr bool kIsAhead = HWY_TARGET == HWY_AVX3;
-    Met next;
+    Pair<D, T> next;
     if (kIsAhead && row.begin < row.end) next = meet(row.begin);
     for (Index e = row.begin; e < row.end; ++e) {
-        const Met met = kIsAhead ? next : meet(e);
+        const Pair<D, T> pair = kIsAhead ? next : meet(e);
         if constexpr (kIsAhead) {
             if (e + 1 < row.end) next = meet(e + 1);
         }
-        const S* fields = source.fields + met.cluster * kFields;
-        FieldsOf<T, Fields> neighbour;
-        for (std::size_t f = 0; f < Fields; ++f) neighbour.field[f] = load_four<S>(fields + 4 * f);
-        pass.template pair<IsWall>(self, met.pair, neighbour, sums);
+        const auto neighbour = load_fields<Fields, S>(source.fields + sight.cluster(entries[e]) * (4 * Fields));
+        pass.template pair<IsWall>(self, pair, neighbour, sums);
     }
 }
 
@@ -114,8 +134,7 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
             continue;
         }
         for (std::size_t part = 0; part < points; part += kAtOnce) {
-            std::array<T, D> x_i;
-            for (int k = 0; k < D; ++k) x_i[k] = spread_four<S>(centres.record(c) + 4 * k + part);
+            const S* const record = centres.record(c);
             FieldsOf<T, Pass::kOwnFields + Pass::kCentreFields> self;
             for (std::size_t f = 0; f < Pass::kOwnFields; ++f) {
                 const std::size_t field = c * Pass::kFluidFields + Pass::kFirstOwn + f;
@@ -132,17 +151,19 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
             }
             LaneSums sums{};
             if (block.seen.empty())
-                add_pairs<false, false, D, Pass::kFluidFields, S>(pass, self, x_i, part, block, c - first, fluid, sums);
+                add_pairs<false, false, D, Pass::kFluidFields, S>(pass, self, record, part, block, c - first, fluid,
+                                                                  sums);
             else
-                add_pairs<false, true, D, Pass::kFluidFields, S>(pass, self, x_i, part, block, c - first, fluid, sums);
+                add_pairs<false, true, D, Pass::kFluidFields, S>(pass, self, record, part, block, c - first, fluid,
+                                                                 sums);
             if constexpr (Pass::kReadsWalls) {
                 if (walls.list != nullptr) {
                     const PairBlock<S>& of_walls = walls.list->blocks()[b];
                     if (of_walls.seen.empty())
-                        add_pairs<true, false, D, Pass::kWallFields, S>(pass, self, x_i, part, of_walls, c - first,
+                        add_pairs<true, false, D, Pass::kWallFields, S>(pass, self, record, part, of_walls, c - first,
                                                                         walls, sums);
                     else
-                        add_pairs<true, true, D, Pass::kWallFields, S>(pass, self, x_i, part, of_walls, c - first,
+                        add_pairs<true, true, D, Pass::kWallFields, S>(pass, self, record, part, of_walls, c - first,
                                                                        walls, sums);
                 }
             }

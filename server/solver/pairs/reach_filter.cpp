@@ -125,8 +125,9 @@ std::size_t list_within(const NearQuery<S>& query, PairEntry* found) {
     const CentreLanes<S, D> centre(query.centre, query.centre_points);
     const PairLanes<S> reach2(query.reach * query.reach);
     constexpr std::size_t kRecord = 4 * (D + 1);
-    std::size_t written = 0;
-    for (std::size_t n = 0; n < count; ++n) {
+    std::size_t written = 0, n = 0;
+    while (n < count && query.maybe[n] < query.skipped) ++n;
+    for (; n < count; ++n) {
         const auto entry = static_cast<PairEntry>(query.maybe[n]);
         const PairWay<S>& way = query.ways[way_of(entry)];
         found[written] = entry;

@@ -45,9 +45,10 @@ struct NearQuery {
     const PairWay<S>* ways{};
     const WaySight* sights{};  // of each way
     std::size_t way_count{};
-    const S* records{};  // of the neighbours' clusters
-    double reach{};      // [m]
-    Index* maybe{};      // scratch for space_for_near(way_count) numbers
+    std::size_t skipped{};  // so many clusters of the first way's block are left out
+    const S* records{};     // of the neighbours' clusters
+    double reach{};         // [m]
+    Index* maybe{};         // scratch for space_for_near(way_count) numbers
 };
 
 inline constexpr std::size_t space_for_near(std::size_t ways) {

@@ -1,3 +1,4 @@
+#include <omp.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ using bench::PlainFluid;
 
 namespace {
 
-constexpr PairStrategy kStrategies[] = {PairStrategy::clusters, PairStrategy::buffer, PairStrategy::broadcast};
+constexpr PairStrategy kStrategies[] = {PairStrategy::clusters, PairStrategy::half, PairStrategy::buffer,
+                                        PairStrategy::broadcast};
 
 // What single precision may be off by.
 struct Tolerance {
@@ -127,6 +129,31 @@ TEST_CASE("SpeedSums.InstructionSetsAgreeWithAllPairs") {
         const solver::OnlyInstructionSet only(name);
         check_strategies<3>(12, 3.0);
     }
+}
+
+TEST_CASE("SpeedSums.HalfListsGiveTheSameBitsForAnyNumberOfThreads") {
+    // Threads add to the same points' sums: in one order all the same.
+    const int dimensions = GENERATE(2, 3), threads = GENERATE(2, 3, 4);
+    const auto run = [&](int team) {
+        omp_set_num_threads(team);
+        PlainFluid fluid = bench::make_plain_fluid(dimensions, dimensions == 2 ? 80 : 20, 3.0);
+        const auto sums = bench::make_plain_sums(PairStrategy::half, dimensions);
+        bench::StageSeconds seconds;
+        sums->compute(fluid, seconds);
+        bench::start_plain_fluid(fluid);
+        for (int step = 0; step < 12; ++step) {
+            bench::advance_plain_fluid(fluid);
+            sums->compute(fluid, seconds);
+        }
+        CHECK(sums->sorts() > 1);
+        return fluid;
+    };
+    const int before = omp_get_max_threads();
+    const PlainFluid one = run(1), many = run(threads);
+    omp_set_num_threads(before);
+    CHECK(one.x == many.x);
+    CHECK(one.a == many.a);
+    CHECK(one.delta_rate == many.delta_rate);
 }
 
 TEST_CASE("SpeedSums.ClustersReuseTheirLists") {

@@ -50,7 +50,7 @@ TEST_CASE("SpeedTables.StandBetweenTheirMarksAndLeaveTheRestAlone") {
     CHECK(fresh->starts_with(std::string("before\n") + bench::kSpeedBegin));
     CHECK(fresh->ends_with(std::string(bench::kSpeedEnd) + "after\n"));
     CHECK(fresh->find("old") == std::string::npos);
-    CHECK(fresh->find("| 3D | 3 | 112 | 3.73 (248) |") != std::string::npos);
+    CHECK(fresh->find("| 3D | 3 | 112 | whole | 3.73 (248) |") != std::string::npos);
     CHECK(bench::with_speed_tables(*fresh, {plain("clusters", "AVX-512", 1, 3.73)}) == fresh);
     CHECK_FALSE(bench::with_speed_tables("no marks", {}).has_value());
     CHECK_FALSE(bench::with_speed_tables(bench::kSpeedBegin, {}).has_value());
@@ -58,9 +58,12 @@ TEST_CASE("SpeedTables.StandBetweenTheirMarksAndLeaveTheRestAlone") {
 
 // 3.5 of 4; two threads at 1.8 each are 3.6 of 4 as a whole, nine tenths; what was not measured has no figure.
 TEST_CASE("SpeedTables.CompareWithTheClustersOfOneThread") {
-    const std::vector<SpeedRow> rows{plain("clusters", "AVX-512", 1, 4.0), plain("buffer", "AVX-512", 1, 3.5),
-                                     plain("clusters", "AVX2", 1, 2.0), plain("clusters", "AVX-512", 2, 1.8)};
+    const std::vector<SpeedRow> rows{plain("clusters", "AVX-512", 1, 4.0), plain("half", "AVX-512", 1, 5.0),
+                                     plain("buffer", "AVX-512", 1, 3.5), plain("clusters", "AVX2", 1, 2.0),
+                                     plain("clusters", "AVX-512", 2, 1.8)};
     const std::string document = bench::speed_document(rows);
-    CHECK(document.find("| 3D | 64,000 | 0.88 | - | 0.50 | - | - | 0.90 |") != std::string::npos);
-    CHECK(document.find("| plain_3d | 64,000 | 3 | 4 (248) | 3.5 (248) | - | clusters |") != std::string::npos);
+    CHECK(document.find("| 3D | 64,000 | 1.25 | 0.88 | - | 0.50 | - | - | 0.90 | - |") != std::string::npos);
+    const auto readme = bench::with_speed_tables(std::string(bench::kSpeedBegin) + bench::kSpeedEnd, rows);
+    CHECK(readme->find("| 3D | 3 | 112 | half | 5 (248) |") != std::string::npos);
+    CHECK(document.find("| plain_3d | 64,000 | 3 | 4 (248) | 5 (248) | 3.5 (248) | - | half |") != std::string::npos);
 }

@@ -110,6 +110,42 @@ TEST_CASE("PairList.HasEveryPairWithinTheSupportAndItsSkinOnce") {
     check_complete(neighbours, points, kSupport + kSkin);
 }
 
+TEST_CASE("PairList.HalfHasEveryPairOnceAndEachClusterFirstWithItself") {
+    const int dimensions = GENERATE(2, 3);
+    const std::string kind = GENERATE("body", "periods", "spray", "spray about a corner of periods");
+    const Points points = make_body(kind, dimensions);
+    PairNeighboursOf<double> neighbours;
+    NeighbourInput in = input_of(points);
+    in.reach.is_half = true;
+    neighbours.find(in);
+    std::size_t others_first = 0;
+    for (std::size_t c = 0; c < neighbours.fluid().clusters(); ++c) {
+        const PairBlock<double>& block = neighbours.among_fluid().blocks()[c / kMotionBlock];
+        const PairRow& row = block.rows[c % kMotionBlock];
+        others_first += row.begin == row.end || block.cluster(row, row.begin) != c;
+    }
+    CHECK(others_first == 0);
+    const double within = kSupport + kInnerSkin;
+    const auto pairs = listed_pairs(neighbours.among_fluid(), neighbours.fluid(), neighbours.fluid(), within);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const double r = points.distance(i, j);
+            if (std::abs(r - within) < 1e-5) continue;
+            const auto times = [&](std::size_t a, std::size_t b) {
+                const auto found = pairs.find({a, b});
+                return found == pairs.end() ? 0 : found->second;
+            };
+            // Both ways within a cluster, unless it is a period's displacement that brings them together.
+            double r2 = 0.0;
+            for (int k = 0; k < dimensions; ++k) r2 += std::pow(points.x[k][i] - points.x[k][j], 2);
+            const int expected = r > within ? 0 : (i / 4 == j / 4 && r2 < within * within ? 2 : 1);
+            wrong += times(i, j) + times(j, i) != expected;
+        }
+    }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("PairList.PruningKeepsEveryPairWithinTheSupportAndTheInnerSkin") {
     const int dimensions = GENERATE(2, 3);
     const std::string kind = GENERATE("body", "periods", "spray");

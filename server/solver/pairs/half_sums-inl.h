@@ -1,0 +1,169 @@
+// The pair loop over a half list: each pair once, for both of its points. Compiled for each instruction set (Highway's
+// foreach_target).
+//
+// What the first point of a pair gets is summed in registers, what the second gets is added to its sums in memory.
+// Blocks are taken in the order of their colours: every point's sums are formed in one order for any number of threads.
+//
+// A Pass has what pair_sums-inl.h asks for, walls left out, and
+//   exchange(self, pair, V_i, neighbour, sums, reaction)   adds what the pair contributes to its first and second point
+#include <algorithm>
+#include <array>
+
+#include "server/solver/pairs/block_colours.h"
+#include "server/solver/pairs/pair_sums-inl.h"
+
+#if defined(HEADRACE_PAIRS_HALF_SUMS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef HEADRACE_PAIRS_HALF_SUMS_INL_H
+#undef HEADRACE_PAIRS_HALF_SUMS_INL_H
+#else
+#define HEADRACE_PAIRS_HALF_SUMS_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace headrace::solver::HWY_NAMESPACE {
+
+// Sums are added four at a time.
+inline constexpr std::size_t in_fours(std::size_t sums) {
+    return (sums + 3) / 4 * 4;
+}
+
+// Adds to the four numbers of each sum: number j gets lanes j, j + 4, ...
+template <class S, std::size_t N>
+HWY_INLINE void add_columns(S* numbers, const std::array<PairLanes<S>, N>& sums) {
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (sizeof(S) == 4) {
+        // Halves first, of two sums in one vector, then quarters, of all four.
+        const auto halves = [](const PairLanes<S>& a, const PairLanes<S>& b) HWY_ATTR {
+            const auto u = (__m512d)a.v, v = (__m512d)b.v;
+            const __m512d low = _mm512_insertf64x4(u, _mm512_castpd512_pd256(v), 1);
+            return _mm512_add_ps((__m512)low, (__m512)_mm512_shuffle_f64x2(u, v, 0xee));
+        };
+        for (std::size_t s = 0; s < N; s += 4, numbers += 4 * kClusterSize) {
+            const auto sum = [&](std::size_t k) HWY_ATTR { return k < N ? sums[k] : PairLanes<S>(0.0); };
+            const __m512 ab = halves(sum(s), sum(s + 1)), cd = halves(sum(s + 2), sum(s + 3));
+            const __m512 all = _mm512_add_ps(_mm512_shuffle_f32x4(ab, cd, 0x88), _mm512_shuffle_f32x4(ab, cd, 0xdd));
+            _mm512_store_ps(numbers, _mm512_add_ps(_mm512_load_ps(numbers), all));
+        }
+        return;
+    }
+#endif
+    for (std::size_t s = 0; s < N; ++s) {
+        for (std::size_t j = 0; j < kClusterSize; ++j) {
+            S sum = sums[s].v[j];
+            for (std::size_t l = j + kClusterSize; l < PairLanes<S>::kCount; l += kClusterSize) sum += sums[s].v[l];
+            numbers[s * kClusterSize + j] += sum;
+        }
+    }
+}
+
+// Adds to the numbers of each sum from `first` on: number i gets lanes 4 i to 4 i + 3.
+template <class S, std::size_t N>
+HWY_INLINE void add_rows(S* numbers, std::size_t first, std::array<PairLanes<S>, N> sums) {
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (sizeof(S) == 4) {
+        // Pairs of lanes first, of two sums in one vector, then fours, of all four: sum by sum within each point.
+        const auto pairs = [](const __m512& a, const __m512& b) HWY_ATTR {
+            return _mm512_add_ps(_mm512_shuffle_ps(a, b, 0x88), _mm512_shuffle_ps(a, b, 0xdd));
+        };
+        const __m512i transposed = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
+        for (std::size_t s = 0; s < N; s += 4, numbers += 4 * kClusterSize) {
+            const auto sum = [&](std::size_t k) HWY_ATTR { return k < N ? (__m512)sums[k].v : _mm512_setzero_ps(); };
+            const __m512 all = pairs(pairs(sum(s), sum(s + 1)), pairs(sum(s + 2), sum(s + 3)));
+            _mm512_store_ps(numbers, _mm512_add_ps(_mm512_load_ps(numbers), _mm512_permutexvar_ps(transposed, all)));
+        }
+        return;
+    }
+#endif
+    for (std::size_t s = 0; s < N; ++s) {
+        sum_fours<S>(sums[s]);
+        for (std::size_t i = 0; i < PairLanes<S>::kCount / 4; ++i)
+            numbers[s * kClusterSize + first + i] += sums[s].v[4 * i];
+    }
+}
+
+template <class Sums, class T>
+HWY_INLINE auto as_array(const Sums& sums) {
+    std::array<T, sizeof(Sums) / sizeof(T)> array;
+    for (std::size_t s = 0; s < array.size(); ++s)
+        __builtin_memcpy(&array[s].v, reinterpret_cast<const char*>(&sums) + s * sizeof(T), sizeof(T));
+    return array;
+}
+
+// Sums over the half list among the fluid.
+template <int D, class S>
+class HalfSums {
+    using T = PairLanes<S>;
+
+  public:
+    // list: half; colours: of its blocks; fields: what the pass reads of the points, packed.
+    template <class Pass>
+    void run(const Pass& pass, const ClusterPoints<S>& points, const PairList<S>& list, const BlockColours& colours,
+             const S* fields) {
+        using PointSums = typename Pass::template Sums<double>;
+        constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double), kNumbers = in_fours(kSums) * kClusterSize;
+        sums_.resize(points.clusters() * kNumbers);
+        parallel_for(points.clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
+            std::fill(&sums_[0] + first * kNumbers, &sums_[0] + last * kNumbers, S{});
+        });
+        colours.for_each_block([&](std::size_t b) { add_block(pass, points, list.blocks()[b], b, fields); });
+        parallel_for(points.size(), kMotionBlock * kClusterSize, [&](std::size_t first, std::size_t last, int) {
+            for (std::size_t i = first; i < last; ++i) {
+                const S* of_cluster = &sums_[0] + i / kClusterSize * kNumbers + i % kClusterSize;
+                std::array<double, kSums> total;
+                for (std::size_t s = 0; s < kSums; ++s) total[s] = static_cast<double>(of_cluster[s * kClusterSize]);
+                PointSums sums;
+                __builtin_memcpy(static_cast<void*>(&sums), total.data(), sizeof sums);
+                pass.store(static_cast<Index>(i), sums);
+            }
+        });
+    }
+
+  private:
+    template <class Pass>
+    HWY_NOINLINE void add_block(const Pass& shared_pass, const ClusterPoints<S>& points, const PairBlock<S>& block,
+                                std::size_t b, const S* fields) {
+        using LaneSums = typename Pass::template Sums<T>;
+        constexpr std::size_t kSums = sizeof(LaneSums) / sizeof(T), kNumbers = in_fours(kSums) * kClusterSize;
+        constexpr std::size_t kAtOnce = T::kCount / 4, kFields = Pass::kFluidFields;
+        const Pass pass = shared_pass;  // which the sums written cannot change: its constants stay in registers
+        const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, points.clusters());
+        S* const all_sums = &sums_[0];
+        for (std::size_t c = first; c < last; ++c) {
+            const PairRow row = block.rows[c - first];
+            const Index count = row.end - row.begin;
+            if (count == 0) continue;
+            const PairEntry* const entries = block.entries.data() + row.begin;
+            const S *const record = points.record(c), *const own_fields = fields + c * (4 * kFields);
+            for (std::size_t part = 0; part < kClusterSize; part += kAtOnce) {
+                const CentreSight<D, S> sight(record, part, block.ways.data() + row.ways, points.record(0));
+                const T V_i = spread_four<S>(record + 4 * D + part);
+                FieldsOf<T, kFields> self;
+                for (std::size_t f = 0; f < kFields; ++f) self.field[f] = spread_four<S>(own_fields + 4 * f + part);
+                LaneSums sums{};
+                // The cluster with itself: each of its pairs is there both ways.
+                pass.template pair<false>(self, sight.meet(entries[0]), load_fields<kFields, S>(own_fields), sums);
+                // One ahead: the square root takes as long as the rest.
+                Pair<D, T> next;
+                if (count > 1) next = sight.meet(entries[1]);
+                for (Index e = 1; e < count; ++e) {
+                    const Pair<D, T> pair = next;
+                    if (e + 1 < count) next = sight.meet(entries[e + 1]);
+                    const std::size_t cluster = sight.cluster(entries[e]);
+                    LaneSums reaction{};
+                    pass.exchange(self, pair, V_i, load_fields<kFields, S>(fields + cluster * (4 * kFields)), sums,
+                                  reaction);
+                    add_columns<S, kSums>(all_sums + cluster * kNumbers, as_array<LaneSums, T>(reaction));
+                }
+                add_rows<S, kSums>(all_sums + c * kNumbers, part, as_array<LaneSums, T>(sums));
+            }
+        }
+    }
+
+    AlignedArray<S> sums_;  // [cluster][sum][point]
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace headrace::solver::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
