@@ -84,6 +84,7 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const S* record, s
                           typename Pass::template Sums<PairLanes<S>>& sums) {
     using T = PairLanes<S>;
     const PairRow row = block.rows[c];
+    if (row.begin == row.end) return;  // walls out of reach
     const PairEntry* const entries = block.entries.data();
     const CentreSight<D, S> sight(record, first_point, block.ways.data() + row.ways, source.points->record(0));
     const auto meet = [&](Index e) {
@@ -102,7 +103,7 @@ HWY_INLINE void add_pairs(const Pass& pass, const Self& self, const S* record, s
     // One ahead, where there are registers enough: the square root takes as long as the rest.
     constexpr bool kIsAhead = HWY_TARGET == HWY_AVX3;
     Pair<D, T> next;
-    if (kIsAhead && row.begin < row.end) next = meet(row.begin);
+    if constexpr (kIsAhead) next = meet(row.begin);
     for (Index e = row.begin; e < row.end; ++e) {
         const Pair<D, T> pair = kIsAhead ? next : meet(e);
         if constexpr (kIsAhead) {
