@@ -17,7 +17,7 @@ void BlockColours::build(const PairList<S>& list) {
         const auto chunk = static_cast<Index>(begin / kChunk);
         std::uint64_t not_free = 0;
         for (std::size_t b = begin; b < end; ++b)
-            for (const PairWay<S>& way : list.blocks()[b].ways) not_free |= taken[way.first / kMotionBlock];
+            for (const PairWay<S>& way : list.blocks()[b].ways) not_free |= taken[way.first / kBlockClusters];
         const auto colour = static_cast<std::size_t>(std::countr_one(not_free));
         if (colour == kMasked) {
             colours_.push_back({chunk});
@@ -26,7 +26,7 @@ void BlockColours::build(const PairList<S>& list) {
         colours_[colour].push_back(chunk);
         for (std::size_t b = begin; b < end; ++b)
             for (const PairWay<S>& way : list.blocks()[b].ways)
-                taken[way.first / kMotionBlock] |= std::uint64_t{1} << colour;
+                taken[way.first / kBlockClusters] |= std::uint64_t{1} << colour;
     }
     std::erase_if(colours_, [](const std::vector<Index>& chunks) { return chunks.empty(); });
 }

@@ -19,6 +19,10 @@ constexpr std::int64_t kStrip = 16;
 constexpr std::int64_t kBundleRows2d = 4, kBundleRows3d = 2, kBundleBins = 2;
 static_assert(kStrip % kBundleRows2d == 0 && kStrip % kBundleRows3d == 0);
 
+// Boxes of the grid of blocks (z, y, x): as wide as a bundle, and about as long.
+constexpr std::array<int, 3> kBoxShift2d{0, 2, 4}, kBoxShift3d{1, 1, 3};
+static_assert(kBundleRows2d == 4 && kBundleRows3d == 2);
+
 // How many rows come before the one in this layer, strip by strip of so many rows, each layer by layer, to and fro.
 // goes_back: does the layer?
 std::int64_t rows_before(std::int64_t layer, std::int64_t row, std::int64_t layers, std::int64_t rows,
@@ -32,130 +36,75 @@ std::int64_t rows_before(std::int64_t layer, std::int64_t row, std::int64_t laye
 
 void ClusterOrder::build(const VectorField& x, const std::vector<Index>& id, int dimensions, double spacing,
                          const Domain& domain) {
-    dimensions_ = dimensions;
-    divide(spacing, domain);
+    const double width = (dimensions == 3 ? kRowWidth3d : kRowWidth2d) * spacing;
+    const double length = (dimensions == 3 ? kBinLength3d : kBinLength2d) * spacing;
+    division_.divide(dimensions, {length, width, width}, domain);
     count_ = id.size();
+    range_ = division_.range_of(x, count_);
     order_.resize(count_);
-    bin_of_point_.clear();
-    measure(x, id.size());
-    if (is_dense_) {
+    const bool dense = is_dense();
+    if (dense) {
         order_dense(x, id);
     } else {
         order_sparse(x, id);
     }
-    store_in_bundles(x);
+    store_in_bundles(x, dense);
+    blocks_.build(division_, range_, dimensions == 3 ? kBoxShift3d : kBoxShift2d, x, order_,
+                  kBlockClusters * kClusterSize);
 }
 
-// Along a periodic axis whole bins fill the period.
-void ClusterOrder::divide(double spacing, const Domain& domain) {
-    const double width = dimensions_ == 3 ? kRowWidth3d : kRowWidth2d;
-    const double length = dimensions_ == 3 ? kBinLength3d : kBinLength2d;
-    for (int axis = 0; axis < 3; ++axis) {
-        side_[axis] = (axis == 0 ? length : width) * spacing;
-        origin_[axis] = period_[axis] = 0.0;
-        bins_in_period_[axis] = 0;
-        if (domain.periodic[axis] && axis < dimensions_) {
-            origin_[axis] = domain.min[axis];
-            period_[axis] = domain.max[axis] - domain.min[axis];
-            const double whole = std::max(1.0, std::floor(period_[axis] / side_[axis]));
-            bins_in_period_[axis] = static_cast<std::int64_t>(whole);
-            side_[axis] = period_[axis] / whole;
-        }
-        inv_side_[axis] = 1.0 / side_[axis];
-    }
-}
-
-ClusterOrder::Bin ClusterOrder::find_bin(const VectorField& x, std::size_t i) const {
-    Bin bin{};
-    for (int axis = 0; axis < dimensions_; ++axis) {
-        std::int64_t& c = bin[2 - axis];
-        c = coordinate(x[axis][i], axis);
-        if (bins_in_period_[axis] > 0)  // rounding at the very end
-            c = std::clamp<std::int64_t>(c, 0, bins_in_period_[axis] - 1);
-    }
-    return bin;
-}
-
-ClusterOrder::Bin ClusterOrder::in_walking_order(const Bin& bin) {
+Bin ClusterOrder::in_walking_order(const Bin& bin) {
     const auto [z, y, x] = bin;
     return {z, (z & 1) != 0 ? -y : y, ((z + y) & 1) != 0 ? -x : x};
 }
 
 std::size_t ClusterOrder::number_of(const Bin& bin) const {
     const auto [z, y, x] = bin;
-    const std::int64_t before = rows_before(z - lowest_[0], y - lowest_[1], highest_[0] - lowest_[0] + 1,
-                                            highest_[1] - lowest_[1] + 1, kStrip, (z & 1) != 0);
-    const std::int64_t place = ((z + y) & 1) != 0 ? highest_[2] - x : x - lowest_[2];
-    return row_ * static_cast<std::size_t>(before) + static_cast<std::size_t>(place);
+    const auto& [lowest, highest] = range_;
+    const std::int64_t before =
+        rows_before(z - lowest[0], y - lowest[1], range_.width(0), range_.width(1), kStrip, (z & 1) != 0);
+    const std::int64_t place = ((z + y) & 1) != 0 ? highest[2] - x : x - lowest[2];
+    return static_cast<std::size_t>(range_.width(2) * before + place);
 }
 
-// The box of bins that the points occupy, and which layout it allows.
-void ClusterOrder::measure(const VectorField& x, std::size_t count) {
-    struct Range {
-        Bin lowest, highest;
-    };
-    const Range none{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
-    const auto join = [](Range a, const Range& b) {
-        for (int k = 0; k < 3; ++k) {
-            a.lowest[k] = std::min(a.lowest[k], b.lowest[k]);
-            a.highest[k] = std::max(a.highest[k], b.highest[k]);
-        }
-        return a;
-    };
-    const Range range = parallel_reduce(
-        count, none,
-        [&](std::size_t begin, std::size_t end) {
-            Range block = none;
-            for (std::size_t i = begin; i < end; ++i) {
-                const Bin bin = find_bin(x, i);
-                block = join(block, {bin, bin});
-            }
-            return block;
-        },
-        join);
-    lowest_ = count > 0 ? range.lowest : Bin{};
-    highest_ = count > 0 ? range.highest : Bin{};
+bool ClusterOrder::is_dense() const {
     // In floating point, since the product may exceed any integer.
-    std::array<double, 3> width{};
-    for (int k = 0; k < 3; ++k) width[k] = static_cast<double>(highest_[k] - lowest_[k]) + 1.0;
-    const std::size_t allowed = std::max(kDenseMinimum, kDenseBins * count);
-    is_dense_ = width[0] * width[1] * width[2] <= static_cast<double>(allowed);
-    if (!is_dense_) return;
-    row_ = static_cast<std::size_t>(width[2]);
-    layer_ = row_ * static_cast<std::size_t>(width[1]);
-    start_.assign(layer_ * static_cast<std::size_t>(width[0]) + 1, 0);
+    const double bins = static_cast<double>(range_.width(0)) * static_cast<double>(range_.width(1)) *
+                        static_cast<double>(range_.width(2));
+    return bins <= static_cast<double>(std::max(kDenseMinimum, kDenseBins * count_));
 }
 
 // Counting sort. Places within a bin are handed out in any order, then ids decide.
 void ClusterOrder::order_dense(const VectorField& x, const std::vector<Index>& id) {
     const std::size_t count = id.size();
+    std::vector<Index> start(static_cast<std::size_t>(range_.width(0) * range_.width(1) * range_.width(2)) + 1, 0);
     std::vector<Index> numbers(count);  // of each point's bin
     parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t number = number_of(find_bin(x, i));
+            const std::size_t number = number_of(division_.find(x, i));
             numbers[i] = static_cast<Index>(number);
 #pragma omp atomic
-            ++start_[number];
+            ++start[number];
         }
     });
     Index sum = 0;
-    for (Index& start : start_) {
-        sum += start;
-        start = sum;  // the end, from which places are handed out
+    for (Index& of_bin : start) {
+        sum += of_bin;
+        of_bin = sum;  // the end, from which places are handed out
     }
     parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             Index place;
 #pragma omp atomic capture
-            place = --start_[numbers[i]];
+            place = --start[numbers[i]];
             order_[place] = static_cast<Index>(i);
         }
     });
-    parallel_for(start_.size() - 1, 4 * kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+    parallel_for(start.size() - 1, 4 * kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         const auto by_id = [&](Index a, Index b) { return id[a] < id[b]; };
         for (std::size_t bin = begin; bin < end; ++bin) {
-            if (start_[bin + 1] - start_[bin] > 1)
-                std::sort(order_.begin() + start_[bin], order_.begin() + start_[bin + 1], by_id);
+            if (start[bin + 1] - start[bin] > 1)
+                std::sort(order_.begin() + start[bin], order_.begin() + start[bin + 1], by_id);
         }
     });
 }
@@ -164,51 +113,44 @@ void ClusterOrder::order_sparse(const VectorField& x, const std::vector<Index>& 
     const std::size_t count = id.size();
     std::vector<Bin> bin_of(count);
     for (std::size_t i = 0; i < count; ++i) {
-        bin_of[i] = in_walking_order(find_bin(x, i));
+        bin_of[i] = in_walking_order(division_.find(x, i));
         order_[i] = static_cast<Index>(i);
     }
     std::sort(order_.begin(), order_.end(),
               [&](Index a, Index b) { return bin_of[a] != bin_of[b] ? bin_of[a] < bin_of[b] : id[a] < id[b]; });
-    bin_of_point_.resize(count);
-    for (std::size_t point = 0; point < count; ++point) bin_of_point_[point] = bin_of[order_[point]];
 }
 
-ClusterOrder::Bin ClusterOrder::bundle_of(const Bin& first, const Bin& last) const {
-    const bool is_3d = dimensions_ == 3;
-    return {(first[0] - lowest_[0]) / (is_3d ? kBundleRows3d : 1),
-            (first[1] - lowest_[1]) / (is_3d ? kBundleRows3d : kBundleRows2d),
-            (first[2] - lowest_[2] + last[2] - lowest_[2]) / (2 * kBundleBins)};
+Bin ClusterOrder::bundle_of(const Bin& first, const Bin& last) const {
+    const bool is_3d = division_.dimensions() == 3;
+    const Bin& lowest = range_.lowest;
+    return {(first[0] - lowest[0]) / (is_3d ? kBundleRows3d : 1),
+            (first[1] - lowest[1]) / (is_3d ? kBundleRows3d : kBundleRows2d),
+            (first[2] - lowest[2] + last[2] - lowest[2]) / (2 * kBundleBins)};
 }
 
 // The last cluster stays the last, since it may have fewer points.
-void ClusterOrder::store_in_bundles(const VectorField& x) {
-    cluster_at_.resize(clusters());
+void ClusterOrder::store_in_bundles(const VectorField& x, bool is_dense) {
     if (count_ == 0) return;
-    cluster_at_.back() = static_cast<Index>(clusters() - 1);
     std::vector<Bin> bundles(clusters() - 1);
     parallel_for(bundles.size(), kParticleBlock, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t c = first; c < last; ++c) {
             const Index* of_cluster = &order_[c * kClusterSize];
-            bundles[c] = bundle_of(find_bin(x, of_cluster[0]), find_bin(x, of_cluster[kClusterSize - 1]));
+            bundles[c] = bundle_of(division_.find(x, of_cluster[0]), division_.find(x, of_cluster[kClusterSize - 1]));
         }
     });
-    if (is_dense_) {
-        place_dense(bundles);
-    } else {
-        place_sparse(bundles);
-    }
+    const std::vector<Index> place = is_dense ? place_dense(bundles) : place_sparse(bundles);
     std::vector<Index> along_rows(order_.begin(), order_.end());
     parallel_for(bundles.size(), kParticleBlock, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t c = first; c < last; ++c)
-            std::copy_n(&along_rows[c * kClusterSize], kClusterSize, &order_[cluster_at_[c] * kClusterSize]);
+            std::copy_n(&along_rows[c * kClusterSize], kClusterSize, &order_[place[c] * kClusterSize]);
     });
 }
 
 // Counting sort; those of the same number stay in their order.
-void ClusterOrder::place_dense(const std::vector<Bin>& bundles) {
-    const Bin highest = bundle_of(highest_, highest_);
+std::vector<Index> ClusterOrder::place_dense(const std::vector<Bin>& bundles) const {
+    const Bin highest = bundle_of(range_.highest, range_.highest);
     const std::int64_t layers = highest[0] + 1, rows = highest[1] + 1, length = highest[2] + 1;
-    const std::int64_t strip_rows = kStrip / (dimensions_ == 3 ? kBundleRows3d : kBundleRows2d);
+    const std::int64_t strip_rows = kStrip / (division_.dimensions() == 3 ? kBundleRows3d : kBundleRows2d);
     std::vector<Index> number(bundles.size());
     parallel_for(bundles.size(), kParticleBlock, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t c = first; c < last; ++c) {
@@ -220,29 +162,17 @@ void ClusterOrder::place_dense(const std::vector<Bin>& bundles) {
     std::vector<Index> next(static_cast<std::size_t>(layers * rows * length) + 1, 0);
     for (const Index n : number) ++next[n + 1];
     for (std::size_t n = 1; n < next.size(); ++n) next[n] += next[n - 1];
-    for (std::size_t c = 0; c < number.size(); ++c) cluster_at_[c] = next[number[c]]++;
+    for (Index& n : number) n = next[n]++;
+    return number;
 }
 
-void ClusterOrder::place_sparse(const std::vector<Bin>& bundles) {
-    std::vector<Index> clusters(bundles.size());
+std::vector<Index> ClusterOrder::place_sparse(const std::vector<Bin>& bundles) {
+    std::vector<Index> clusters(bundles.size()), place(bundles.size());
     for (std::size_t c = 0; c < clusters.size(); ++c) clusters[c] = static_cast<Index>(c);
     std::stable_sort(clusters.begin(), clusters.end(),
                      [&](Index a, Index b) { return in_walking_order(bundles[a]) < in_walking_order(bundles[b]); });
-    for (std::size_t place = 0; place < clusters.size(); ++place)
-        cluster_at_[clusters[place]] = static_cast<Index>(place);
-}
-
-RowRun ClusterOrder::find_run(std::int64_t z, std::int64_t y, std::int64_t first, std::int64_t last) const {
-    first = std::max(first, lowest_[2]);
-    last = std::min(last, highest_[2]);
-    if (first > last) return {};
-    const bool goes_back = ((z + y) & 1) != 0;
-    const Bin from{z, y, goes_back ? last : first}, to{z, y, goes_back ? first : last};
-    if (is_dense_) return {start_[number_of(from)], start_[number_of(to) + 1], {}};
-    const auto number = [&](auto found) { return static_cast<Index>(found - bin_of_point_.begin()); };
-    return {number(std::lower_bound(bin_of_point_.begin(), bin_of_point_.end(), in_walking_order(from))),
-            number(std::upper_bound(bin_of_point_.begin(), bin_of_point_.end(), in_walking_order(to))),
-            {}};
+    for (std::size_t n = 0; n < clusters.size(); ++n) place[clusters[n]] = static_cast<Index>(n);
+    return place;
 }
 
 }  // namespace headrace::solver

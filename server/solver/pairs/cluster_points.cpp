@@ -54,7 +54,7 @@ void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size
     records_.resize(clusters() * stride_);
     reference_.resize(clusters());
     start_.resize(moves ? clusters() * static_cast<std::size_t>(dimensions) * kClusterSize : 0);
-    motion_.assign((clusters() + kMotionBlock - 1) / kMotionBlock, MotionBox{});
+    motion_.assign((clusters() + kBlockClusters - 1) / kBlockClusters, MotionBox{});
     settled_.assign(motion_.size(), MotionBox{});
     total_ = settled_;
     boxes_.resize(motion_.size());
@@ -65,7 +65,7 @@ void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size
 
 template <class S>
 void ClusterPoints<S>::choose_references(const VectorField& x, double support) {
-    parallel_for(clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
+    parallel_for(clusters(), kBlockClusters, [&](std::size_t first, std::size_t last, int) {
         std::array<std::int32_t, 3> reference{};
         for (int k = 0; k < dimensions_; ++k) {
             const Range block = range_of(x[k], first * kClusterSize, std::min(last * kClusterSize, count_));
@@ -84,7 +84,7 @@ void ClusterPoints<S>::choose_references(const VectorField& x, double support) {
             reference_[c] = reference;
             if (!is_near) others |= 1u << (c - first);
         }
-        other_reference_[first / kMotionBlock] = static_cast<std::uint16_t>(others);
+        other_reference_[first / kBlockClusters] = static_cast<std::uint16_t>(others);
     });
 }
 
@@ -97,7 +97,7 @@ template <class S>
 void ClusterPoints<S>::settle() {
     if (start_.size() == 0) return;
     const std::size_t places = static_cast<std::size_t>(dimensions_) * kClusterSize;
-    parallel_for(clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
+    parallel_for(clusters(), kBlockClusters, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t c = first; c < last; ++c) {
             for (std::size_t l = 0; l < places; ++l)
                 start_[c * places + l] = static_cast<float>(records_[c * stride_ + l]);
@@ -111,14 +111,14 @@ template <class S>
 template <bool IsStart>
 void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
     [[maybe_unused]] const bool keeps_start = start_.size() > 0;
-    parallel_for(clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
+    parallel_for(clusters(), kBlockClusters, [&](std::size_t first, std::size_t last, int) {
         MotionBox box;
         constexpr float kInfinity = std::numeric_limits<float>::infinity();
         for (int k = 0; k < dimensions_; ++k) {
             box.low[k] = kInfinity;
             box.high[k] = -kInfinity;
         }
-        [[maybe_unused]] BlockBoxes* const boxes = &boxes_[first / kMotionBlock];
+        [[maybe_unused]] BlockBoxes* const boxes = &boxes_[first / kBlockClusters];
         if constexpr (IsStart) boxes->clear();
         for (std::size_t c = first; c < last; ++c) {
             const std::size_t begin = c * kClusterSize, in_cluster = std::min(kClusterSize, count_ - begin);
@@ -148,7 +148,7 @@ void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
             for (std::size_t l = 0; l < kClusterSize; ++l) record[l] = static_cast<S>(volumes[l]);
         }
         if constexpr (!IsStart) {
-            const std::size_t block = first / kMotionBlock;
+            const std::size_t block = first / kBlockClusters;
             motion_[block] = box;
             for (int k = 0; k < 3; ++k) {
                 total_[block].low[k] = settled_[block].low[k] + box.low[k];

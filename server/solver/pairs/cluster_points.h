@@ -20,9 +20,6 @@
 
 namespace headrace::solver {
 
-// Clusters whose displacement since the list was built is bounded together.
-inline constexpr std::size_t kMotionBlock = 16;
-
 // Range of displacements [m] per axis.
 struct MotionBox {
     std::array<float, 3> low{}, high{};
@@ -31,7 +28,7 @@ struct MotionBox {
 // Boxes around the points of a block's clusters, side by side, [axis][cluster]. [m]
 struct BlockBoxes {
     static constexpr float kNowhere = 1e18f;  // out of everything's reach; its square is a number
-    std::array<std::array<float, kMotionBlock>, 3> low, high;
+    std::array<std::array<float, kBlockClusters>, 3> low, high;
 
     void clear() {  // all of them nowhere
         for (auto* bounds : {&low, &high})
@@ -68,9 +65,9 @@ class ClusterPoints {
     double reference_step() const { return step_; }  // [m]
     // The first cluster behind this one that has another reference point or is in another block.
     std::size_t end_of_reference(std::size_t cluster) const {
-        const std::size_t place = cluster % kMotionBlock;
-        const unsigned later = unsigned{other_reference_[cluster / kMotionBlock]} >> place >> 1;
-        const std::size_t end = later == 0 ? kMotionBlock - place : std::size_t(std::countr_zero(later)) + 1;
+        const std::size_t place = cluster % kBlockClusters;
+        const unsigned later = unsigned{other_reference_[cluster / kBlockClusters]} >> place >> 1;
+        const std::size_t end = later == 0 ? kBlockClusters - place : std::size_t(std::countr_zero(later)) + 1;
         return std::min(cluster + end, clusters());
     }
     // When the order was new, each relative to the cluster's reference point.
@@ -79,7 +76,7 @@ class ClusterPoints {
     // Displacement counts anew from the places of now.
     void settle();
 
-    // Per block of clusters, since start() or settle().
+    // Per block of clusters, bounds since start() or settle().
     const std::vector<MotionBox>& motion() const { return motion_; }
     // Since start(): bounds, the sum of those between one settle() and the next.
     const std::vector<MotionBox>& total_motion() const { return total_; }

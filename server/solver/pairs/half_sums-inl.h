@@ -102,11 +102,11 @@ class HalfSums {
         using PointSums = typename Pass::template Sums<double>;
         constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double), kNumbers = in_fours(kSums) * kClusterSize;
         sums_.resize(points.clusters() * kNumbers);
-        parallel_for(points.clusters(), kMotionBlock, [&](std::size_t first, std::size_t last, int) {
+        parallel_for(points.clusters(), kBlockClusters, [&](std::size_t first, std::size_t last, int) {
             std::fill(&sums_[0] + first * kNumbers, &sums_[0] + last * kNumbers, S{});
         });
         colours.for_each_block([&](std::size_t b) { add_block(pass, points, list.blocks()[b], b, fields); });
-        parallel_for(points.size(), kMotionBlock * kClusterSize, [&](std::size_t first, std::size_t last, int) {
+        parallel_for(points.size(), kBlockClusters * kClusterSize, [&](std::size_t first, std::size_t last, int) {
             for (std::size_t i = first; i < last; ++i) {
                 const S* of_cluster = &sums_[0] + i / kClusterSize * kNumbers + i % kClusterSize;
                 std::array<double, kSums> total;
@@ -126,7 +126,7 @@ class HalfSums {
         constexpr std::size_t kSums = sizeof(LaneSums) / sizeof(T), kNumbers = in_fours(kSums) * kClusterSize;
         constexpr std::size_t kAtOnce = T::kCount / 4, kFields = Pass::kFluidFields;
         const Pass pass = shared_pass;  // which the sums written cannot change: its constants stay in registers
-        const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, points.clusters());
+        const std::size_t first = b * kBlockClusters, last = std::min(first + kBlockClusters, points.clusters());
         S* const all_sums = &sums_[0];
         for (std::size_t c = first; c < last; ++c) {
             const PairRow row = block.rows[c - first];

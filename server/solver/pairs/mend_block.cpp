@@ -15,7 +15,7 @@ template <class S>
 BlockBoxes boxes_of_now(const ClusterPoints<S>& points, std::size_t block, const std::array<std::int32_t, 3>& base) {
     BlockBoxes boxes;
     boxes.clear();
-    const std::size_t first = block * kMotionBlock, last = std::min(first + kMotionBlock, points.clusters());
+    const std::size_t first = block * kBlockClusters, last = std::min(first + kBlockClusters, points.clusters());
     for (std::size_t c = first; c < last; ++c) {
         const S* record = points.record(c);
         const std::size_t count = std::min(kClusterSize, points.size() - c * kClusterSize);
@@ -31,10 +31,10 @@ BlockBoxes boxes_of_now(const ClusterPoints<S>& points, std::size_t block, const
 // Bit c: is cluster c of `boxes` within reach of cluster n of `others`? Boxes: none that is is lost.
 std::uint16_t boxes_near(const BlockBoxes& boxes, const BlockBoxes& others, std::size_t n, int dimensions,
                          double reach) {
-    std::array<float, kMotionBlock> gap2{};
+    std::array<float, kBlockClusters> gap2{};
     for (int k = 0; k < dimensions; ++k) {
         const float low = others.low[k][n], high = others.high[k][n];
-        for (std::size_t c = 0; c < kMotionBlock; ++c) {
+        for (std::size_t c = 0; c < kBlockClusters; ++c) {
             const float gap = std::max({0.0f, boxes.low[k][c] - high, low - boxes.high[k][c]});
             gap2[c] += gap * gap;
         }
@@ -42,7 +42,7 @@ std::uint16_t boxes_near(const BlockBoxes& boxes, const BlockBoxes& others, std:
     constexpr double kRoundedUp = 1.0 + 1e-4;
     const auto reach2 = static_cast<float>(reach * reach * kRoundedUp);
     unsigned near = 0;
-    for (std::size_t c = 0; c < kMotionBlock; ++c) near |= unsigned{gap2[c] < reach2} << c;
+    for (std::size_t c = 0; c < kBlockClusters; ++c) near |= unsigned{gap2[c] < reach2} << c;
     return static_cast<std::uint16_t>(near);
 }
 
@@ -80,27 +80,27 @@ std::vector<LackedPair> find_lacked(const PairBlock<S>& block, std::size_t b, co
                                     const ClusterPoints<S>& neighbours, const std::vector<Index>& neighbour_blocks,
                                     double reach) {
     // Of each neighbour, bit c: is it on the list of centre c?
-    std::vector<std::array<std::uint16_t, kMotionBlock>> listed(neighbour_blocks.size());
+    std::vector<std::array<std::uint16_t, kBlockClusters>> listed(neighbour_blocks.size());
     block.for_each_listed([&](std::size_t c, Index cluster, Index) {
-        const auto at = std::find(neighbour_blocks.begin(), neighbour_blocks.end(), cluster / kMotionBlock);
+        const auto at = std::find(neighbour_blocks.begin(), neighbour_blocks.end(), cluster / kBlockClusters);
         if (at == neighbour_blocks.end()) return;
-        std::uint16_t& by = listed[static_cast<std::size_t>(at - neighbour_blocks.begin())][cluster % kMotionBlock];
+        std::uint16_t& by = listed[static_cast<std::size_t>(at - neighbour_blocks.begin())][cluster % kBlockClusters];
         by = static_cast<std::uint16_t>(by | 1u << c);
     });
-    const auto& base = centres.reference(b * kMotionBlock);
+    const auto& base = centres.reference(b * kBlockClusters);
     const BlockBoxes own = boxes_of_now(centres, b, base);
-    const std::size_t own_clusters = std::min(kMotionBlock, centres.clusters() - b * kMotionBlock);
+    const std::size_t own_clusters = std::min(kBlockClusters, centres.clusters() - b * kBlockClusters);
     std::vector<LackedPair> lacked;
     for (std::size_t o = 0; o < neighbour_blocks.size(); ++o) {
         const BlockBoxes others = boxes_of_now(neighbours, neighbour_blocks[o], base);
-        const std::size_t first = neighbour_blocks[o] * kMotionBlock;
-        for (std::size_t n = 0; n < std::min(kMotionBlock, neighbours.clusters() - first); ++n) {
+        const std::size_t first = neighbour_blocks[o] * kBlockClusters;
+        for (std::size_t n = 0; n < std::min(kBlockClusters, neighbours.clusters() - first); ++n) {
             const unsigned unlisted = boxes_near(own, others, n, centres.dimensions(), reach) & ~unsigned{listed[o][n]};
             if (unlisted == 0) continue;
             const std::size_t cluster = first + n;
             for (std::size_t c = 0; c < own_clusters; ++c) {
                 if ((unlisted >> c & 1u) != 0 &&
-                    is_pair_near(centres, b * kMotionBlock + c, neighbours, cluster, reach))
+                    is_pair_near(centres, b * kBlockClusters + c, neighbours, cluster, reach))
                     lacked.push_back({c, static_cast<Index>(cluster)});
             }
         }
@@ -120,16 +120,16 @@ bool mend_block(PairBlock<S>& block, std::size_t b, const ClusterPoints<S>& cent
     std::vector<PairEntry> entries;
     auto next = lacked.begin();
     std::size_t hint = 0;
-    for (std::size_t c = 0; c < kMotionBlock; ++c) {
+    for (std::size_t c = 0; c < kBlockClusters; ++c) {
         PairRow& row = block.rows[c];
         const auto at = [&](Index entry) { return block.entries.begin() + entry; };
         const auto begin = static_cast<Index>(entries.size());
         entries.insert(entries.end(), at(row.begin), at(row.end));
         const auto pruned = std::vector<PairEntry>(at(row.end), at(block.listed_end(c)));
         for (; next != lacked.end() && next->centre == c; ++next) {
-            const Index place = next->neighbour % kMotionBlock;
+            const Index place = next->neighbour % kBlockClusters;
             PairWay<S> way{{}, next->neighbour - place};
-            const auto &from = centres.reference(b * kMotionBlock + c), &to = neighbours.reference(next->neighbour);
+            const auto &from = centres.reference(b * kBlockClusters + c), &to = neighbours.reference(next->neighbour);
             for (int k = 0; k < centres.dimensions(); ++k)
                 way.offset[k] = static_cast<S>((from[k] - to[k]) * centres.reference_step());
             const Index number = number_of_way(block.ways, row.ways, way, hint);
@@ -140,7 +140,7 @@ bool mend_block(PairBlock<S>& block, std::size_t b, const ClusterPoints<S>& cent
         row.end = static_cast<Index>(entries.size());
         entries.insert(entries.end(), pruned.begin(), pruned.end());
     }
-    block.rows[kMotionBlock].begin = block.rows[kMotionBlock].end = static_cast<Index>(entries.size());
+    block.rows[kBlockClusters].begin = block.rows[kBlockClusters].end = static_cast<Index>(entries.size());
     block.entries = std::move(entries);
     return true;
 }

@@ -37,7 +37,7 @@ Extent extent_of(const VectorField& x, int dimensions, std::size_t begin, std::s
 template <class S>
 void NearBlocks<S>::start(const Setting& setting) {
     setting_ = setting;
-    stamp_.assign((setting.neighbours->clusters() + kMotionBlock - 1) / kMotionBlock, 0);
+    stamp_.assign((setting.neighbours->clusters() + kBlockClusters - 1) / kBlockClusters, 0);
     stamp_of_image_ = stamp_;
     look_ = look_of_image_ = 0;
 }
@@ -48,29 +48,25 @@ void NearBlocks<S>::find(std::size_t begin, std::size_t end) {
     const int dimensions = setting_.centres->dimensions();
     blocks_.clear();
     found_.clear();
-    const std::size_t own = begin / (kMotionBlock * kClusterSize);
+    const std::size_t own = begin / (kBlockClusters * kClusterSize);
     std::array<int, 3> image{};
     ++look_;
     ++look_of_image_;
-    const auto visit = [&](const RowRun& run) {
-        if (std::exchange(image, run.image) != run.image) ++look_of_image_;
-        const Index last = (run.end - 1) / kClusterSize;
-        for (Index n = run.begin / kClusterSize; n <= last; ++n) {
-            const auto block = static_cast<Index>(setting_.order->cluster_at(n) / kMotionBlock);
-            if (setting_.is_half && block < own) continue;
-            if (std::exchange(stamp_of_image_[block], look_of_image_) == look_of_image_) continue;
-            if (std::exchange(stamp_[block], look_) != look_) blocks_.push_back(block);
-            found_.push_back({block, image});
-        }
+    const auto visit = [&](Index block, const std::array<int, 3>& displaced) {
+        if (setting_.is_half && block < own) return;
+        if (std::exchange(image, displaced) != displaced) ++look_of_image_;
+        if (std::exchange(stamp_of_image_[block], look_of_image_) == look_of_image_) return;
+        if (std::exchange(stamp_[block], look_) != look_) blocks_.push_back(block);
+        found_.push_back({block, image});
     };
     const Extent extent = extent_of(x, dimensions, begin, end);
     if (!is_wide(extent, dimensions, setting_.far_reach)) {
-        setting_.order->for_each_run(extent.low, extent.high, setting_.far_reach, visit);
+        setting_.grid->for_each_near(extent.low, extent.high, setting_.far_reach, visit);
         return;
     }
     for (std::size_t i = begin; i < end; ++i) {
         const Extent point = extent_of(x, dimensions, i, i + 1);
-        setting_.order->for_each_run(point.low, point.high, setting_.far_reach, visit);
+        setting_.grid->for_each_near(point.low, point.high, setting_.far_reach, visit);
     }
     std::sort(found_.begin(), found_.end());
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
@@ -84,11 +80,11 @@ bool NearBlocks<S>::is_other_half(const Found& found, std::size_t block) const {
 
 template <class S>
 ClusterBox NearBlocks<S>::box_of(std::size_t cluster) const {
-    const BlockBoxes& boxes = setting_.centres->boxes(cluster / kMotionBlock);
+    const BlockBoxes& boxes = setting_.centres->boxes(cluster / kBlockClusters);
     ClusterBox box;
     for (int k = 0; k < setting_.centres->dimensions(); ++k) {
-        box.low[k] = boxes.low[k][cluster % kMotionBlock];
-        box.high[k] = boxes.high[k][cluster % kMotionBlock];
+        box.low[k] = boxes.low[k][cluster % kBlockClusters];
+        box.high[k] = boxes.high[k][cluster % kBlockClusters];
     }
     return box;
 }
@@ -107,14 +103,14 @@ void NearBlocks<S>::add_ways(std::size_t first, std::size_t end, std::vector<Pai
     }
     sights_.clear();
     parts_used_ = 0;
-    const std::size_t block = first / kMotionBlock;
+    const std::size_t block = first / kBlockClusters;
     const Found own{static_cast<Index>(block), {}};
     if (setting_.is_half) add_way(first, own, first, end, box, ways);
     for (const Found& found : found_) {
         if (is_other_half(found, block)) continue;
         const bool is_own = setting_.is_half && found == own;
-        const std::size_t block_end = std::min((found.block + 1) * kMotionBlock, neighbours.clusters());
-        for (std::size_t c = found.block * kMotionBlock; c < block_end;) {
+        const std::size_t block_end = std::min((found.block + 1) * kBlockClusters, neighbours.clusters());
+        for (std::size_t c = found.block * kBlockClusters; c < block_end;) {
             const std::size_t to = neighbours.end_of_reference(c);
             if (!is_own || c >= end) add_way(first, found, c, to, box, ways);
             c = to;
@@ -140,7 +136,7 @@ void NearBlocks<S>::add_way(std::size_t centre, const Found& found, std::size_t 
                             const ClusterBox& box, std::vector<PairWay<S>>& ways) {
     const ClusterPoints<S>&centres = *setting_.centres, &neighbours = *setting_.neighbours;
     const auto &from = centres.reference(centre), &to = neighbours.reference(first);
-    PairWay<S> way{{}, static_cast<Index>(found.block * kMotionBlock)};
+    PairWay<S> way{{}, static_cast<Index>(found.block * kBlockClusters)};
     WaySight sight;
     for (int k = 0; k < centres.dimensions(); ++k) {
         const double offset = (from[k] - to[k]) * centres.reference_step() - found.image[k] * setting_.period[k];
@@ -151,11 +147,11 @@ void NearBlocks<S>::add_way(std::size_t centre, const Found& found, std::size_t 
         sight.down[k] = static_cast<float>(offset - rounding);
     }
     sight.boxes = &neighbours.boxes(found.block);
-    if (end - first < std::min(kMotionBlock, neighbours.clusters() - found.block * kMotionBlock)) {
+    if (end - first < std::min(kBlockClusters, neighbours.clusters() - found.block * kBlockClusters)) {
         if (parts_used_ == parts_.size()) parts_.emplace_back();
         BlockBoxes& part = parts_[parts_used_++];
         part.clear();
-        for (std::size_t c = first % kMotionBlock; c < end - found.block * kMotionBlock; ++c) {
+        for (std::size_t c = first % kBlockClusters; c < end - found.block * kBlockClusters; ++c) {
             for (int k = 0; k < centres.dimensions(); ++k) {
                 part.low[k][c] = sight.boxes->low[k][c];
                 part.high[k][c] = sight.boxes->high[k][c];

@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-#include "server/solver/pairs/cluster_order.h"
+#include "server/solver/pairs/block_grid.h"
 #include "server/solver/pairs/cluster_points.h"
 #include "server/solver/pairs/pair_way.h"
 #include "server/solver/pairs/reach_filter.h"
@@ -26,11 +26,11 @@ class NearBlocks {
         const ClusterPoints<S>* centres{};
         const VectorField* x{};  // of the centres, in their order
         const ClusterPoints<S>* neighbours{};
-        const ClusterOrder* order{};  // of the neighbours
-        double reach{};               // [m] that ways lead to
-        double far_reach{};           // [m] of the blocks
-        Vec3 period{};                // [m]
-        bool is_half{};               // are blocks before the centres' left out, and, of their own, half of the images?
+        const BlockGrid* grid{};  // of the neighbours
+        double reach{};           // [m] that ways lead to
+        double far_reach{};       // [m] of the blocks
+        Vec3 period{};            // [m]
+        bool is_half{};           // are blocks before the centres' left out, and, of their own, half of the images?
     };
 
     void start(const Setting& setting);

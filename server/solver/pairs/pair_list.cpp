@@ -11,10 +11,6 @@
 namespace headrace::solver {
 namespace {
 
-// Blocks further apart than the reach and this many skins are not compared one by one: all displacements together may
-// not exceed it.
-constexpr double kFarSkins = 3.0;
-
 // Pruning is due when one of so many blocks sees all of its entries.
 constexpr std::size_t kMostWhole = 8;
 
@@ -91,19 +87,19 @@ class RelativeMotion {
 
 template <class S>
 void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
-                        const ClusterOrder& order, const ReachOptions& options) {
+                        const BlockGrid& grid, const ReachOptions& options) {
     support_ = options.support;
     skin_ = options.skin;
     inner_skin_ = std::min(options.inner_skin, options.skin);
-    far_skin_ = kFarSkins * options.skin;
-    can_mend_ = &centres == &neighbours && !order.is_periodic() && options.visibility == nullptr && !options.is_half;
-    const std::size_t count = (centres.clusters() + kMotionBlock - 1) / kMotionBlock;
+    far_skin_ = options.far_skins * options.skin;
+    can_mend_ = &centres == &neighbours && !grid.is_periodic() && options.visibility == nullptr && !options.is_half;
+    const std::size_t count = (centres.clusters() + kBlockClusters - 1) / kBlockClusters;
     blocks_.resize(count);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
     const double reach = (options.support + options.skin) * (1.0 + kRounding);
     const double far_reach = (options.support + skin_ + far_skin_) * (1.0 + kRounding);
     for (Scratch& scratch : scratch_)
-        scratch.near.start({&centres, &x, &neighbours, &order, reach, far_reach, options.period, options.is_half});
+        scratch.near.start({&centres, &x, &neighbours, &grid, reach, far_reach, options.period, options.is_half});
     parallel_for(count, 4, [&](std::size_t first, std::size_t last, int thread) {
         for (std::size_t b = first; b < last; ++b)
             build_block(b, centres, x, neighbours, options, scratch_[static_cast<std::size_t>(thread)]);
@@ -116,7 +112,7 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
                               const ClusterPoints<S>& neighbours, const ReachOptions& options, Scratch& scratch) {
     PairBlock<S>& block = blocks_[b];
     NearBlocks<S>& near = scratch.near;
-    const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
+    const std::size_t first = b * kBlockClusters, last = std::min(first + kBlockClusters, centres.clusters());
     near.find(first * kClusterSize, std::min(last * kClusterSize, centres.size()));
     block.nearby.assign(near.blocks().begin(), near.blocks().end());
     scratch.start_block();
@@ -140,7 +136,7 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
             query.centre = centres.record(c);
             query.centre_points = std::min(kClusterSize, centres.size() - c * kClusterSize);
             query.box = near.box_of(c);
-            if (options.is_half) query.skipped = c % kMotionBlock;
+            if (options.is_half) query.skipped = c % kBlockClusters;
             PairRow& row = block.rows[c - first];
             row.begin = static_cast<Index>(scratch.used);
             scratch.used += list_near(query, &scratch.entries[scratch.used]);
@@ -153,7 +149,7 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
             }
         }
     }
-    for (std::size_t c = last - first; c <= kMotionBlock; ++c)
+    for (std::size_t c = last - first; c <= kBlockClusters; ++c)
         block.rows[c].begin = block.rows[c].end = static_cast<Index>(scratch.used);
     scratch.finish_block(block, needs_visibility);
 }
@@ -179,9 +175,9 @@ void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clus
     skin_ = list.skin_;
     inner_skin_ = list.inner_skin_;
     far_skin_ = list.far_skin_;
-    blocks_.resize((centre_clusters + kMotionBlock - 1) / kMotionBlock);
+    blocks_.resize((centre_clusters + kBlockClusters - 1) / kBlockClusters);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
-    std::vector<Index> first(blocks_.size() * kMotionBlock + 1, 0);  // of each centre's entries
+    std::vector<Index> first(blocks_.size() * kBlockClusters + 1, 0);  // of each centre's entries
     for (const PairBlock<S>& block : list.blocks_)
         block.for_each_listed([&](std::size_t, Index j, Index) { ++first[j + 1]; });
     for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
@@ -192,7 +188,7 @@ void PairList<S>::build_transposed(const PairList& list, std::size_t centre_clus
         block.for_each_listed([&](std::size_t c, Index j, Index e) {
             const auto& offset = block.way(block.rows[c], e).offset;
             entries[next[j]++] = {
-                static_cast<Index>(b * kMotionBlock + c), {-offset[0], -offset[1], -offset[2]}, !block.seen.empty()};
+                static_cast<Index>(b * kBlockClusters + c), {-offset[0], -offset[1], -offset[2]}, !block.seen.empty()};
         });
     }
     parallel_for(blocks_.size(), 4, [&](std::size_t begin, std::size_t end, int thread) {
@@ -209,11 +205,11 @@ void PairList<S>::build_transposed_block(std::size_t b, const std::vector<Index>
     block.nearby.clear();
     scratch.start_block();
     scratch.entries.resize(
-        std::max<std::size_t>(scratch.entries.size(), first[(b + 1) * kMotionBlock] - first[b * kMotionBlock]));
+        std::max<std::size_t>(scratch.entries.size(), first[(b + 1) * kBlockClusters] - first[b * kBlockClusters]));
     bool needs_visibility = false;
     std::size_t hint = 0;
-    for (std::size_t c = 0; c < kMotionBlock; ++c) {
-        const Index begin = first[b * kMotionBlock + c], end = first[b * kMotionBlock + c + 1];
+    for (std::size_t c = 0; c < kBlockClusters; ++c) {
+        const Index begin = first[b * kBlockClusters + c], end = first[b * kBlockClusters + c + 1];
         // Centres that stand together share their ways, as long as there are numbers for those that may come.
         Index first_way = c == 0 ? 0 : block.rows[c - 1].ways;
         if (scratch.ways.size() - first_way + (end - begin) > kMostWays)
@@ -221,13 +217,13 @@ void PairList<S>::build_transposed_block(std::size_t b, const std::vector<Index>
         block.rows[c] = {static_cast<Index>(scratch.used), static_cast<Index>(scratch.used + end - begin), first_way};
         for (Index e = begin; e < end; ++e) {
             needs_visibility |= entries[e].needs_visibility;
-            const Index place = entries[e].cluster % kMotionBlock;
+            const Index place = entries[e].cluster % kBlockClusters;
             const Index number =
                 number_of_way(scratch.ways, first_way, {entries[e].offset, entries[e].cluster - place}, hint);
             scratch.entries[scratch.used++] = make_entry(number, place);
         }
     }
-    block.rows[kMotionBlock] = {static_cast<Index>(scratch.used), static_cast<Index>(scratch.used), 0};
+    block.rows[kBlockClusters] = {static_cast<Index>(scratch.used), static_cast<Index>(scratch.used), 0};
     scratch.finish_block(block, needs_visibility);
 }
 
@@ -250,11 +246,11 @@ void PairList<S>::prune(const ClusterPoints<S>& centres, const ClusterPoints<S>&
             query.reach = reach;
             query.far = scratch.far.data();
             query.far_seen = scratch.far_seen.data();
-            for (std::size_t c = 0; c < kMotionBlock; ++c) {
+            for (std::size_t c = 0; c < kBlockClusters; ++c) {
                 PairRow& row = block.rows[c];
                 query.count = block.listed_end(c) - row.begin;
                 if (query.count == 0) continue;
-                const std::size_t cluster = b * kMotionBlock + c;
+                const std::size_t cluster = b * kBlockClusters + c;
                 query.centre = centres.record(cluster);
                 query.centre_points = std::min(kClusterSize, centres.size() - cluster * kClusterSize);
                 query.ways = block.ways.data() + row.ways;
@@ -336,7 +332,7 @@ void PairList<S>::refresh(const PairVisibility& visibility, std::size_t centres,
             block.for_each_listed([&](std::size_t c, Index cluster, Index e) {
                 std::uint16_t seen = 0;
                 for (std::size_t k = 0; k < kClusterSize * kClusterSize; ++k) {
-                    const std::size_t i = (b * kMotionBlock + c) * kClusterSize + k / kClusterSize;
+                    const std::size_t i = (b * kBlockClusters + c) * kClusterSize + k / kClusterSize;
                     const std::size_t j = cluster * kClusterSize + k % kClusterSize;
                     if (i >= centres || j >= neighbours) continue;
                     if (visibility.may_interact(static_cast<Index>(i), static_cast<Index>(j)))
@@ -350,8 +346,8 @@ void PairList<S>::refresh(const PairVisibility& visibility, std::size_t centres,
 
 template <class S>
 bool PairList<S>::has_entries(std::size_t centre_cluster) const {
-    const PairBlock<S>& block = blocks_[centre_cluster / kMotionBlock];
-    const std::size_t c = centre_cluster % kMotionBlock;
+    const PairBlock<S>& block = blocks_[centre_cluster / kBlockClusters];
+    const std::size_t c = centre_cluster % kBlockClusters;
     return block.rows[c].begin < block.listed_end(c);
 }
 

@@ -20,10 +20,10 @@
 
 namespace headrace::solver {
 
-// The lists of kMotionBlock clusters of centres.
+// The lists of kBlockClusters clusters of centres.
 template <class S>
 struct PairBlock {
-    std::array<PairRow, kMotionBlock + 1> rows{};  // of each centre; the last one tells where the entries end
+    std::array<PairRow, kBlockClusters + 1> rows{};  // of each centre; the last one tells where the entries end
     std::vector<PairWay<S>> ways;
     std::vector<PairEntry> entries;
     std::vector<std::uint16_t> seen;  // of each entry: bit 4 i + j: may they interact? Empty: all may.
@@ -31,7 +31,7 @@ struct PairBlock {
     bool is_whole{true};              // do the loops see all entries?
 
     void bring_back() {
-        for (std::size_t c = 0; c < kMotionBlock; ++c) rows[c].end = listed_end(c);
+        for (std::size_t c = 0; c < kBlockClusters; ++c) rows[c].end = listed_end(c);
         is_whole = true;
     }
 
@@ -44,12 +44,12 @@ struct PairBlock {
     // the loops see.
     template <class Visit>
     void for_each_listed(Visit&& visit) const {
-        for (std::size_t c = 0; c < kMotionBlock; ++c)
+        for (std::size_t c = 0; c < kBlockClusters; ++c)
             for (Index e = rows[c].begin; e < listed_end(c); ++e) visit(c, cluster(rows[c], e), e);
     }
     template <class Visit>
     void for_each_met(Visit&& visit) const {
-        for (std::size_t c = 0; c < kMotionBlock; ++c)
+        for (std::size_t c = 0; c < kBlockClusters; ++c)
             for (Index e = rows[c].begin; e < rows[c].end; ++e) visit(c, cluster(rows[c], e), e);
     }
 };
@@ -66,6 +66,7 @@ struct ReachOptions {
     double support{};                    // [m]
     double skin{};                       // [m]
     double inner_skin{};                 // [m] of the pruned list
+    double far_skins{3.0};               // blocks this many skins further apart are compared for their motion, too
     Vec3 period{};                       // [m]
     const PairVisibility* visibility{};  // null: all pairs may interact
     // Is each pair listed once, by the cluster that comes first? Each cluster lists itself, as its first entry. Only
@@ -83,9 +84,9 @@ enum class Coverage {
 template <class S>
 class PairList {
   public:
-    // x: of the centres, in their order; order: of the neighbours.
+    // x: of the centres, in their order; grid: of the neighbours.
     void build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
-               const ClusterOrder& order, const ReachOptions& options);
+               const BlockGrid& grid, const ReachOptions& options);
 
     // Chooses the entries that the loops see, for the places of now; both have just been settled. Until then, after
     // build(), they see all.

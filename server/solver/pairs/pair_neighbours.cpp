@@ -15,7 +15,7 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     ReachOptions reach = input.reach;
     start(fluid_, input.fluid, true);
     reach.visibility = input.among_fluid;
-    among_fluid_.build(fluid_, *input.fluid.x, fluid_, *input.fluid.order, reach);
+    among_fluid_.build(fluid_, *input.fluid.x, fluid_, input.fluid.order->blocks(), reach);
     if (input.walls.count == 0) {
         walls_ = {};
         prune();
@@ -24,7 +24,7 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     if (input.has_new_walls) start(walls_, input.walls, input.walls_move);
     reach.visibility = input.fluid_to_wall;
     if (input.wall_skin > 0.0) reach.skin = input.wall_skin;
-    fluid_to_wall_.build(fluid_, *input.fluid.x, walls_, *input.walls.order, reach);
+    fluid_to_wall_.build(fluid_, *input.fluid.x, walls_, input.walls.order->blocks(), reach);
     wall_to_fluid_.build_transposed(fluid_to_wall_, walls_.clusters());
     if (input.wall_to_fluid != nullptr) wall_to_fluid_.refresh(*input.wall_to_fluid, walls_.size(), fluid_.size());
     prune();
@@ -96,7 +96,7 @@ void PairNeighboursOf<S>::for_each_wall_pair(const std::function<void(Index wall
     parallel_for(blocks.size(), 1, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t b = first; b < last; ++b) {
             blocks[b].for_each_met([&](std::size_t c, Index fluid_cluster, Index) {
-                visit_clusters(b * kMotionBlock + c, fluid_cluster);
+                visit_clusters(b * kBlockClusters + c, fluid_cluster);
             });
         }
     });

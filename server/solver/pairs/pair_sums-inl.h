@@ -126,7 +126,7 @@ HWY_NOINLINE void sum_block(const Pass& pass, const ClusterPoints<S>& centres, c
     static_assert(sizeof(LaneSums) == kSums * sizeof(T), "Sums has members of its number type only");
 
     [[maybe_unused]] const auto centre_fields = pass.centre_fields();
-    const std::size_t first = b * kMotionBlock, last = std::min(first + kMotionBlock, centres.clusters());
+    const std::size_t first = b * kBlockClusters, last = std::min(first + kBlockClusters, centres.clusters());
     for (std::size_t c = first; c < last; ++c) {
         const std::size_t begin = c * kClusterSize, points = std::min(kClusterSize, centres.size() - begin);
         const PairBlock<S>& block = fluid.list->blocks()[b];

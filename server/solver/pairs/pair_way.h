@@ -23,15 +23,15 @@ struct PairWay {
 
 // A cluster of neighbours: the number of the way to its block, and its place in the block.
 using PairEntry = std::uint16_t;
-inline constexpr Index kMostWays = 65536 / kMotionBlock;
+inline constexpr Index kMostWays = 65536 / kBlockClusters;
 inline constexpr PairEntry make_entry(Index way, Index place) {
-    return static_cast<PairEntry>(way * kMotionBlock + place);
+    return static_cast<PairEntry>(way * kBlockClusters + place);
 }
 inline constexpr Index way_of(PairEntry entry) {
-    return entry / kMotionBlock;
+    return entry / kBlockClusters;
 }
 inline constexpr Index place_of(PairEntry entry) {
-    return entry % kMotionBlock;
+    return entry % kBlockClusters;
 }
 
 // The number of this way among those from `first` on, where it is added if need be. Ways are mostly asked for in the

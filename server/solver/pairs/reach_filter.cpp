@@ -59,7 +59,7 @@ constexpr double kRounding = 1e-4;
 template <int D>
 class BoxLanes {
   public:
-    static constexpr hn::CappedTag<float, kMotionBlock> d{};
+    static constexpr hn::CappedTag<float, kBlockClusters> d{};
 
     BoxLanes(const ClusterBox& box, double reach)
         : reach2_(hn::Set(d, static_cast<float>(reach * reach * (1.0 + 2.0 * kRounding)))) {
@@ -70,7 +70,7 @@ class BoxLanes {
     }
 
     // Which of them from `first` on are within reach of the box?
-    HWY_INLINE hn::Mask<hn::CappedTag<float, kMotionBlock>> near(const WaySight& sight, std::size_t first) const {
+    HWY_INLINE hn::Mask<hn::CappedTag<float, kBlockClusters>> near(const WaySight& sight, std::size_t first) const {
         auto gap2 = hn::Zero(d);
         for (int a = 0; a < D; ++a) {
             const auto high = hn::Add(high_[a], hn::Set(d, sight.up[a])),
@@ -84,8 +84,8 @@ class BoxLanes {
     }
 
   private:
-    std::array<hn::Vec<hn::CappedTag<float, kMotionBlock>>, D> low_, high_;
-    hn::Vec<hn::CappedTag<float, kMotionBlock>> reach2_;
+    std::array<hn::Vec<hn::CappedTag<float, kBlockClusters>>, D> low_, high_;
+    hn::Vec<hn::CappedTag<float, kBlockClusters>> reach2_;
 };
 
 template <int D>
@@ -94,7 +94,7 @@ std::size_t ways_within(const WayQuery& query, Index* kept) {
     std::size_t count = 0;
     for (std::size_t w = 0; w < query.count; ++w) {
         bool is_near = false;
-        for (std::size_t first = 0; first < kMotionBlock; first += hn::Lanes(box.d))
+        for (std::size_t first = 0; first < kBlockClusters; first += hn::Lanes(box.d))
             is_near |= !hn::AllFalse(box.d, box.near(query.sights[w], first));
         kept[count] = static_cast<Index>(w);
         count += is_near;
@@ -109,13 +109,14 @@ std::size_t list_within(const NearQuery<S>& query, PairEntry* found) {
     const hn::RebindToUnsigned<decltype(box.d)> du;
     static_assert(sizeof(Index) == sizeof(hn::TFromD<decltype(du)>));
     // Iota is put together number by number.
-    alignas(64) static constexpr std::array<Index, kMotionBlock> kPlaces{0, 1, 2,  3,  4,  5,  6,  7,
-                                                                         8, 9, 10, 11, 12, 13, 14, 15};
+    alignas(64) static constexpr std::array<Index, kBlockClusters> kPlaces{0, 1, 2,  3,  4,  5,  6,  7,
+                                                                           8, 9, 10, 11, 12, 13, 14, 15};
     auto numbers = hn::Load(du, kPlaces.data());
     const auto next = hn::Set(du, static_cast<Index>(hn::Lanes(du)));
     std::size_t count = 0;
     for (std::size_t w = 0; w < query.way_count; ++w) {
-        for (std::size_t first = 0; first < kMotionBlock; first += hn::Lanes(box.d), numbers = hn::Add(numbers, next)) {
+        for (std::size_t first = 0; first < kBlockClusters;
+             first += hn::Lanes(box.d), numbers = hn::Add(numbers, next)) {
             const auto is_near = hn::RebindMask(du, box.near(query.sights[w], first));
             // Compressing into memory is slow on some machines.
             hn::StoreU(hn::Compress(numbers, is_near), du, query.maybe + count);

@@ -52,7 +52,7 @@ struct NearQuery {
 };
 
 inline constexpr std::size_t space_for_near(std::size_t ways) {
-    return (ways + 1) * kMotionBlock;
+    return (ways + 1) * kBlockClusters;
 }
 
 // Writes the entries of the clusters that have a point within reach of one of the centre's, way by way; returns how

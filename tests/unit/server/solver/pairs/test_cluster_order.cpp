@@ -40,33 +40,43 @@ TEST_CASE("ClusterOrder.HoldsEveryPointOnceInAnOrderOfItsPlaceAlone") {
     CHECK(reversed.id == points.id);
 }
 
-TEST_CASE("ClusterOrder.RunsHoldAllPointsWithinReachOfABox") {
+TEST_CASE("ClusterOrder.BlocksNearABoxHoldAllPointsWithinReachOfIt") {
     const int dimensions = GENERATE(2, 3);
     const std::string kind = GENERATE("box", "periods", "drops");
     const Points points = make_points(kind, dimensions);
     const double reach = 2.5;
-    std::size_t near = 0;
+    constexpr std::size_t kBlock = kBlockClusters * kClusterSize;
+    std::size_t near = 0, left_out = 0;
     for (std::size_t i = 0; i < points.size(); i += 7) {
+        std::set<std::pair<std::array<int, 3>, Index>> blocks;
+        std::vector<std::array<int, 3>> images;
+        points.order.blocks().for_each_near(points.at(i), points.at(i), reach,
+                                            [&](Index block, const std::array<int, 3>& image) {
+                                                blocks.insert({image, block});
+                                                if (images.empty() || images.back() != image) images.push_back(image);
+                                            });
+        CHECK(std::set<std::array<int, 3>>(images.begin(), images.end()).size() == images.size());
         std::set<std::size_t> found;
-        points.order.for_each_run(points.at(i), points.at(i), reach, [&](const RowRun& run) {
-            for (Index n = run.begin; n < run.end; ++n) {
-                const Index j = points.order.slot_at(n);
+        for (const auto& [image, block] : blocks) {
+            for (std::size_t j = kBlock * block; j < std::min(kBlock * (block + 1), points.size()); ++j) {
                 double r2 = 0.0;
                 for (int k = 0; k < dimensions; ++k) {
-                    const double d = points.x[k][i] - points.x[k][j] - run.image[k] * points.period()[k];
+                    const double d = points.x[k][i] - points.x[k][j] - image[k] * points.period()[k];
                     r2 += d * d;
                 }
                 // Twice under one image would be counted twice.
                 if (r2 < reach * reach) CHECK(found.insert(j).second);
             }
-        });
+        }
         for (std::size_t j = 0; j < points.size(); ++j) {
             const bool is_near = points.distance(i, j) < reach;
             near += is_near;
             CHECK(is_near == (found.count(j) == 1));
         }
+        left_out += (points.size() + kBlock - 1) / kBlock - std::min(blocks.size(), points.size() / kBlock);
     }
     CHECK(near > 2 * points.size() / 7);
+    CHECK(left_out > 0);  // not simply all of them
 }
 
 TEST_CASE("ClusterOrder.ClustersOfABodyAreCompact") {
@@ -100,7 +110,7 @@ TEST_CASE("ClusterOrder.BlocksOfABodyAreCompact") {
         for (int j = 0; j < edge; ++j)
             for (int k = 0; k < layers; ++k) points.add({i + 0.5, j + 0.5, k + 0.5});
     points.sort();
-    constexpr std::size_t kBlock = kMotionBlock * kClusterSize;
+    constexpr std::size_t kBlock = kBlockClusters * kClusterSize;
     const std::size_t blocks = points.size() / kBlock;
     double longest = 0.0;
     for (std::size_t b = 0; b < blocks; ++b) {

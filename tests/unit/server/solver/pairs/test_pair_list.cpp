@@ -28,7 +28,7 @@ void for_each_met(const PairList<S>& list, const ClusterPoints<S>& centres, cons
     for (std::size_t b = 0; b < list.blocks().size(); ++b) {
         const PairBlock<S>& block = list.blocks()[b];
         block.for_each_met([&](std::size_t place, Index cluster, Index e) {
-            const std::size_t c = b * kMotionBlock + place;
+            const std::size_t c = b * kBlockClusters + place;
             const PairWay<S>& way = block.way(block.rows[place], e);
             for (std::size_t k = 0; k < 16; ++k) {
                 const std::size_t i = 4 * c + k / 4, j = 4 * cluster + k % 4;
@@ -120,8 +120,8 @@ TEST_CASE("PairList.HalfHasEveryPairOnceAndEachClusterFirstWithItself") {
     neighbours.find(in);
     std::size_t others_first = 0;
     for (std::size_t c = 0; c < neighbours.fluid().clusters(); ++c) {
-        const PairBlock<double>& block = neighbours.among_fluid().blocks()[c / kMotionBlock];
-        const PairRow& row = block.rows[c % kMotionBlock];
+        const PairBlock<double>& block = neighbours.among_fluid().blocks()[c / kBlockClusters];
+        const PairRow& row = block.rows[c % kBlockClusters];
         others_first += row.begin == row.end || block.cluster(row, row.begin) != c;
     }
     CHECK(others_first == 0);
@@ -169,7 +169,7 @@ TEST_CASE("PairList.HasThePairsOfMoreClustersThanAnEntryHasNumbersFor") {
     points.sort();
     PairNeighboursOf<float> neighbours;
     neighbours.find(input_of(points));
-    REQUIRE(neighbours.fluid().clusters() > kMostWays * kMotionBlock);
+    REQUIRE(neighbours.fluid().clusters() > kMostWays * kBlockClusters);
     std::size_t pairs = 0, wrong = 0;
     const ClusterPoints<float>& fluid = neighbours.fluid();
     for_each_met(neighbours.among_fluid(), fluid, fluid, [&](std::size_t i, std::size_t j, double r2) {

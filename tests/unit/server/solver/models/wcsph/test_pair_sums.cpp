@@ -367,7 +367,7 @@ TEST_CASE("WcsphSums.AreWholeOverMoreClustersThanAnEntryHasNumbersFor") {
     tolerance = kSingle;
     const auto neighbours = make_pair_neighbours(Arithmetic::single_precision);
     bench.find(*neighbours);
-    REQUIRE(bench.order.clusters() > kMostWays * kMotionBlock);
+    REQUIRE(bench.order.clusters() > kMostWays * kBlockClusters);
     const std::unique_ptr<WcsphSums> sums = make_wcsph_sums({2, KernelKind::wendland_c2, kSupport}, *neighbours);
     check_continuity<2>(bench, *sums, DensityDiffusion::antuono);
     check_wall_pressure<2>(bench, *sums, 0.0);
