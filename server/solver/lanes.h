@@ -66,9 +66,17 @@ template <class T>
 HEADRACE_ALWAYS_INLINE T minimum(const T& a, const T& b) {
     return less_or(b, a, b, a);
 }
-template <class T>
-HEADRACE_ALWAYS_INLINE T positive_or_zero(const T& a) {
-    return less_or(T(0.0), a, a, T(0.0));
+HEADRACE_ALWAYS_INLINE double positive_or_zero(double a) {
+    return a > 0.0 ? a : 0.0;
+}
+// Numbers that are not negative compare as the integers of their bits do: their maximum is one instruction where that
+// of floating-point numbers, with what it has to say of NaN and of -0, is two.
+template <class S, std::size_t N>
+HEADRACE_ALWAYS_INLINE Lanes<S, N> positive_or_zero(const Lanes<S, N>& a) {
+    using Bits = decltype(a.v < a.v);
+    const Bits bits = __builtin_bit_cast(Bits, a.v);
+    const Bits larger = bits > 0 ? bits : Bits{};
+    return Lanes<S, N>(__builtin_bit_cast(typename Lanes<S, N>::Vector, larger));
 }
 
 template <class T>

@@ -28,17 +28,17 @@ class WendlandC2 {
 
     template <class T>
     HEADRACE_ALWAYS_INLINE T W(const T& r) const {
-        const T s = r * inv_R_, u = positive_or_zero<T>(1.0 - s), u2 = u * u;
+        const T s = r * inv_R_, u = positive_or_zero(1.0 - s), u2 = u * u;
         return norm_ * u2 * u2 * (1.0 + 4.0 * s);
     }
     template <class T>
     HEADRACE_ALWAYS_INLINE T F(const T& r) const {
-        const T u = positive_or_zero<T>(1.0 - r * inv_R_);
+        const T u = positive_or_zero(1.0 - r * inv_R_);
         return slope_ * u * u * u;
     }
     template <class T>
     HEADRACE_ALWAYS_INLINE T dF_dr(const T& r) const {
-        const T u = positive_or_zero<T>(1.0 - r * inv_R_);
+        const T u = positive_or_zero(1.0 - r * inv_R_);
         return -3.0 * inv_R_ * slope_ * u * u;
     }
 
@@ -58,25 +58,25 @@ class AnyKernel {
         const T s = r * inv_R_;
         switch (kind_) {
             case KernelKind::wendland_c2: {
-                const T u = positive_or_zero<T>(1.0 - s), u2 = u * u;
+                const T u = positive_or_zero(1.0 - s), u2 = u * u;
                 return norm_ * u2 * u2 * (1.0 + 4.0 * s);
             }
             case KernelKind::wendland_c4: {
                 // N (1-s)^6 (1 + 6s + 35/3 s^2), N = 9/(pi R^2), 495/(32 pi R^3). Dehnen & Aly 2012, Table 1 (C4).
-                const T u = positive_or_zero<T>(1.0 - s), u2 = u * u;
+                const T u = positive_or_zero(1.0 - s), u2 = u * u;
                 return norm_ * u2 * u2 * u2 * (1.0 + 6.0 * s + 35.0 / 3.0 * s * s);
             }
             case KernelKind::cubic_spline: {
                 // N ((2-q)^3 - 4 (1-q)^3), q = 2s. Monaghan & Lattanzio 1985.
-                const T a = positive_or_zero<T>(2.0 - 2.0 * s), b = positive_or_zero<T>(1.0 - 2.0 * s);
+                const T a = positive_or_zero(2.0 - 2.0 * s), b = positive_or_zero(1.0 - 2.0 * s);
                 return norm_ * (a * a * a - 4.0 * b * b * b);
             }
             case KernelKind::quintic_spline:
                 break;
         }
         // N ((3-q)^5 - 6 (2-q)^5 + 15 (1-q)^5), q = 3s. Morris, Fox, Zhu 1997.
-        const T q = 3.0 * s, a = positive_or_zero<T>(3.0 - q), b = positive_or_zero<T>(2.0 - q),
-                c = positive_or_zero<T>(1.0 - q);
+        const T q = 3.0 * s, a = positive_or_zero(3.0 - q), b = positive_or_zero(2.0 - q),
+                c = positive_or_zero(1.0 - q);
         return norm_ * (a * a * a * a * a - 6.0 * b * b * b * b * b + 15.0 * c * c * c * c * c);
     }
 
@@ -85,22 +85,22 @@ class AnyKernel {
         const T s = r * inv_R_;
         switch (kind_) {
             case KernelKind::wendland_c2: {
-                const T u = positive_or_zero<T>(1.0 - s);
+                const T u = positive_or_zero(1.0 - s);
                 return slope_ * u * u * u;
             }
             case KernelKind::wendland_c4: {
-                const T u = positive_or_zero<T>(1.0 - s), u2 = u * u;
+                const T u = positive_or_zero(1.0 - s), u2 = u * u;
                 return slope_ * u2 * u2 * u * (1.0 + 5.0 * s);
             }
             case KernelKind::cubic_spline: {
-                const T q = 2.0 * s, a = positive_or_zero<T>(2.0 - q), b = positive_or_zero<T>(1.0 - q);
+                const T q = 2.0 * s, a = positive_or_zero(2.0 - q), b = positive_or_zero(1.0 - q);
                 return slope_ * (a * a - 4.0 * b * b) / maximum(q, splat<T>(kTiny));
             }
             case KernelKind::quintic_spline:
                 break;
         }
-        const T q = 3.0 * s, a = positive_or_zero<T>(3.0 - q), b = positive_or_zero<T>(2.0 - q),
-                c = positive_or_zero<T>(1.0 - q);
+        const T q = 3.0 * s, a = positive_or_zero(3.0 - q), b = positive_or_zero(2.0 - q),
+                c = positive_or_zero(1.0 - q);
         return slope_ * (a * a * a * a - 6.0 * b * b * b * b + 15.0 * c * c * c * c) / maximum(q, splat<T>(kTiny));
     }
 
@@ -109,16 +109,16 @@ class AnyKernel {
         const T s = r * inv_R_;
         switch (kind_) {
             case KernelKind::wendland_c2: {
-                const T u = positive_or_zero<T>(1.0 - s);
+                const T u = positive_or_zero(1.0 - s);
                 return -3.0 * inv_R_ * slope_ * u * u;
             }
             case KernelKind::wendland_c4: {
-                const T u = positive_or_zero<T>(1.0 - s), u2 = u * u;
+                const T u = positive_or_zero(1.0 - s), u2 = u * u;
                 return -30.0 * inv_R_ * slope_ * s * u2 * u2;
             }
             case KernelKind::cubic_spline: {
                 // F = P/q: dF/dq = (P' - F)/q
-                const T q = 2.0 * s, a = positive_or_zero<T>(2.0 - q), b = positive_or_zero<T>(1.0 - q);
+                const T q = 2.0 * s, a = positive_or_zero(2.0 - q), b = positive_or_zero(1.0 - q);
                 return slope_ * 2.0 * inv_R_ *
                        ((8.0 * b - 2.0 * a) - (a * a - 4.0 * b * b) / maximum(q, splat<T>(kTiny))) /
                        maximum(q, splat<T>(kTiny));
@@ -126,8 +126,8 @@ class AnyKernel {
             case KernelKind::quintic_spline:
                 break;
         }
-        const T q = 3.0 * s, a = positive_or_zero<T>(3.0 - q), b = positive_or_zero<T>(2.0 - q),
-                c = positive_or_zero<T>(1.0 - q), inv_q = 1.0 / maximum(q, splat<T>(kTiny));
+        const T q = 3.0 * s, a = positive_or_zero(3.0 - q), b = positive_or_zero(2.0 - q),
+                c = positive_or_zero(1.0 - q), inv_q = 1.0 / maximum(q, splat<T>(kTiny));
         const T a3 = a * a * a, b3 = b * b * b, c3 = c * c * c;
         return slope_ * 3.0 * inv_R_ * inv_q *
                (-4.0 * (a3 - 6.0 * b3 + 15.0 * c3) - inv_q * (a * a3 - 6.0 * b * b3 + 15.0 * c * c3));

@@ -82,11 +82,14 @@ struct PlainPass {
     double diffusion;  // xi h c0 [m^2/s]
     PlainFluid& fluid;
 
+    // Per volume of the point in half lists.
     template <class T>
     struct Sums {
         std::array<T, D> push{};
-        T rate{};  // of delta
+        T divergence{}, diffusion{};  // before their factors
     };
+    template <class T>
+    using Change = std::array<T, D + 1>;  // push, rate of delta
 
     std::array<const float*, 0> centre_fields() const { return {}; }
     // For strategies that do not pack fields.
@@ -106,61 +109,78 @@ struct PlainPass {
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self& self, const solver::Pair<D, T>& pair, const Neighbour& neighbour,
                                      Sums<T>& sums) const {
-        const Terms<T> terms = terms_of<T>(self, pair, neighbour);
-        add<T>(pair.x_ij, pair.V_j * kernel.F(pair.r), terms, terms.diffusion, self(D), sums);
+        add<T>(terms_of<T>(self, pair, neighbour), sums);
     }
 
-    // The second point sees x_ij and the diffusion the other way round.
+    // Weighted by both volumes a pair's terms are the same for both points, but for signs.
     template <class T, class Self, class Neighbour>
-    HEADRACE_ALWAYS_INLINE void exchange(const Self& self, const solver::Pair<D, T>& pair, const T& V_i,
-                                         const Neighbour& neighbour, Sums<T>& sums, Sums<T>& reaction) const {
-        const Terms<T> terms = terms_of<T>(self, pair, neighbour);
-        const T F = kernel.F(pair.r);
-        add<T>(pair.x_ij, pair.V_j * F, terms, terms.diffusion, self(D), sums);
-        std::array<T, D> x_ji;
-        for (int k = 0; k < D; ++k) x_ji[k] = -pair.x_ij[k];
-        add<T>(x_ji, V_i * F, terms, -terms.diffusion, neighbour(D), reaction);
+    HEADRACE_ALWAYS_INLINE Change<T> exchange(const Self& self, const solver::Pair<D, T>& pair, const T& V_i,
+                                              const Neighbour& neighbour, Sums<T>& sums) const {
+        solver::Pair<D, T> weighted = pair;
+        weighted.V_j = V_i * pair.V_j;
+        const Sums<T> terms = terms_of<T>(self, weighted, neighbour);
+        add<T>(terms, sums);
+        return change_of<T>(terms.push, diffusion * terms.diffusion + (1.0 + neighbour(D)) * terms.divergence);
+    }
+
+    template <class T, class Self>
+    HEADRACE_ALWAYS_INLINE Change<T> gain(const Self& self, const Sums<T>& sums) const {
+        return gain_of<T>(self(D), sums);
     }
 
     void store(solver::Index i, const Sums<double>& sums) const {
-        const double c = fluid.sound_speed, rho = 1.0 + static_cast<double>(fluid.delta[i]);  // over rho0
-        for (int k = 0; k < D; ++k) fluid.a[k][i] = static_cast<float>(-c * c / rho * sums.push[k]);
-        fluid.delta_rate[i] = static_cast<float>(sums.rate);
+        store(i, gain_of<double>(static_cast<double>(fluid.delta[i]), sums), 1.0);
+    }
+    void store(solver::Index i, const Change<double>& change) const {
+        store(i, change, static_cast<double>(fluid.V[i]));
     }
 
   private:
-    // Per V F.
-    template <class T>
-    struct Terms {
-        T divergence, diffusion, pressure;
-    };
-
     template <class T, class Self, class Neighbour>
-    HEADRACE_ALWAYS_INLINE Terms<T> terms_of(const Self& self, const solver::Pair<D, T>& pair,
-                                             const Neighbour& neighbour) const {
+    HEADRACE_ALWAYS_INLINE Sums<T> terms_of(const Self& self, const solver::Pair<D, T>& pair,
+                                            const Neighbour& neighbour) const {
         std::array<T, D> v_ij;
         for (int k = 0; k < D; ++k) v_ij[k] = self(k) - neighbour(k);
-        Terms<T> terms;
-        terms.divergence = solver::velocity_divergence<D, T>(T(1.0), T(1.0), pair.x_ij, v_ij);
-        solver::Pair<D, T> per_volume = pair;
-        per_volume.V_j = T(1.0);
-        terms.diffusion = diffusion * solver::plain_diffusion<D, T>(per_volume, T(1.0), neighbour(D) - self(D), T(0.0));
+        const T F = kernel.F(pair.r);
+        Sums<T> terms;
+        terms.divergence = solver::velocity_divergence<D, T>(pair.V_j, F, pair.x_ij, v_ij);
+        terms.diffusion = solver::plain_diffusion<D, T>(pair, F, neighbour(D) - self(D), T(0.0));
         // With the linear state equation p_i + p_j = rho0 c0^2 (delta_i + delta_j). Artificial viscosity adds to it:
         // one factor of x_ij for both.
         const T approach = solver::approach_rate<D, T>(pair, solver::dot<D, T>(v_ij, pair.x_ij));
-        terms.pressure = self(D) + neighbour(D) - viscosity * approach;
+        solver::PressureSums<D, T> pressure;
+        solver::accumulate_difference<D, T>(solver::scaled<D, T>(pair.V_j * F, pair.x_ij),
+                                            self(D) + neighbour(D) - viscosity * approach, pressure);
+        terms.push = pressure.pB_grad;
         return terms;
     }
 
-    // To the sums of a point that sees the other at -x_ij. VF: V of the other, times F.
     template <class T>
-    HEADRACE_ALWAYS_INLINE static void add(const std::array<T, D>& x_ij, const T& VF, const Terms<T>& terms,
-                                           const T& diffusion, const T& delta, Sums<T>& sums) {
-        sums.rate += VF * (diffusion - (1.0 + delta) * terms.divergence);
-        solver::PressureSums<D, T> pressure;
-        pressure.pB_grad = sums.push;
-        solver::accumulate_difference<D, T>(x_ij, VF * terms.pressure, pressure);
-        sums.push = pressure.pB_grad;
+    HEADRACE_ALWAYS_INLINE static void add(const Sums<T>& terms, Sums<T>& sums) {
+        solver::add_to<D, T>(sums.push, terms.push);
+        sums.divergence += terms.divergence;
+        sums.diffusion += terms.diffusion;
+    }
+
+    template <class T>
+    HEADRACE_ALWAYS_INLINE Change<T> gain_of(const T& delta, const Sums<T>& sums) const {
+        return change_of<T>(sums.push, diffusion * sums.diffusion - (1.0 + delta) * sums.divergence);
+    }
+
+    template <class T>
+    HEADRACE_ALWAYS_INLINE static Change<T> change_of(const std::array<T, D>& push, const T& rate) {
+        Change<T> change;
+        for (int k = 0; k < D; ++k) change[k] = push[k];
+        change[D] = rate;
+        return change;
+    }
+
+    // change: times `volume`
+    void store(solver::Index i, const Change<double>& change, double volume) const {
+        const double rho = 1.0 + static_cast<double>(fluid.delta[i]), per_mass = 1.0 / (rho * volume);  // over rho0
+        const double c2 = fluid.sound_speed * fluid.sound_speed;
+        for (int k = 0; k < D; ++k) fluid.a[k][i] = static_cast<float>(-c2 * per_mass * change[k]);
+        fluid.delta_rate[i] = static_cast<float>(rho * per_mass * change[D]);
     }
 };
 

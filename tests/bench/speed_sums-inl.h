@@ -44,8 +44,12 @@ class ClusterSums final : public PlainSums {
             solver::NeighbourInput in;
             in.dimensions = D;
             in.fluid = {&order_, &fluid.x, fluid.V, fluid.size()};
-            in.reach = {fluid.support, kSkin * fluid.spacing, kInnerSkin * fluid.spacing, fluid.domain.max, nullptr,
-                        IsHalf};
+            in.reach.support = fluid.support;
+            in.reach.skin = kSkin * fluid.spacing;
+            in.reach.inner_skin = kInnerSkin * fluid.spacing;
+            in.reach.far_skins = 1.0;  // the vortex is smooth
+            in.reach.period = fluid.domain.max;
+            in.reach.is_half = IsHalf;
             neighbours_.find(in);
             if constexpr (IsHalf) colours_.build(neighbours_.among_fluid());
             has_lists_ = true;
@@ -72,8 +76,8 @@ class ClusterSums final : public PlainSums {
     long sorts() const override { return sorts_; }
 
   private:
-    // [spacings]. With one light loop a step pruning does not pay for whole lists in 3D.
-    static constexpr double kSkin = D == 2 || IsHalf ? 0.8 : 0.5, kInnerSkin = D == 2 ? 0.3 : (IsHalf ? 0.25 : kSkin);
+    // [spacings]
+    static constexpr double kSkin = D == 2 ? 1.5 : 1.2, kInnerSkin = 0.3;
 
     solver::ClusterOrder order_;
     solver::PairNeighboursOf<float> neighbours_;

@@ -72,7 +72,7 @@ class TensionKernel {
     // W'/r
     template <class T>
     HEADRACE_ALWAYS_INLINE T F(const T& r2) const {
-        const T u = positive_or_zero<T>(1.0 - r2 * inv_R2_);
+        const T u = positive_or_zero(1.0 - r2 * inv_R2_);
         return slope_ * u * u;
     }
 

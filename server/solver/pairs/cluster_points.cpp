@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "server/solver/lanes.h"
 #include "server/solver/parallel.h"
 
 namespace headrace::solver {
@@ -110,52 +111,70 @@ void ClusterPoints<S>::settle() {
 template <class S>
 template <bool IsStart>
 void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
-    [[maybe_unused]] const bool keeps_start = start_.size() > 0;
     parallel_for(clusters(), kBlockClusters, [&](std::size_t first, std::size_t last, int) {
-        MotionBox box;
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
-        for (int k = 0; k < dimensions_; ++k) {
-            box.low[k] = kInfinity;
-            box.high[k] = -kInfinity;
-        }
-        [[maybe_unused]] BlockBoxes* const boxes = &boxes_[first / kBlockClusters];
-        if constexpr (IsStart) boxes->clear();
+        const std::size_t block = first / kBlockClusters;
+        if constexpr (IsStart) boxes_[block].clear();
+        for (int k = 0; k < dimensions_; ++k) pack_axis<IsStart>(x[k], k, first, last);
+        std::array<double, kBlockClusters * kClusterSize> volumes{};
+        V.read(first * kClusterSize, std::min(last * kClusterSize, count_) - first * kClusterSize, volumes.data());
         for (std::size_t c = first; c < last; ++c) {
-            const std::size_t begin = c * kClusterSize, in_cluster = std::min(kClusterSize, count_ - begin);
-            S* record = &records_[c * stride_];
-            std::size_t start = c * static_cast<std::size_t>(dimensions_) * kClusterSize;
-            for (int k = 0; k < dimensions_; ++k, record += kClusterSize, start += kClusterSize) {
-                const double* places = x[k].data() + begin;
-                const double centre = centre_of(reference_[c][k], step_);
-                if constexpr (IsStart) {
-                    const Range range = range_of(x[k], begin, begin + in_cluster);
-                    boxes->set(k, c - first, range.low - centre, range.high - centre);
-                }
-                for (std::size_t l = 0; l < kClusterSize; ++l) {
-                    const double place = l < in_cluster ? places[l] - centre : kOutOfReach * step_;
-                    record[l] = static_cast<S>(place);
-                    if constexpr (IsStart) {
-                        if (keeps_start) start_[start + l] = static_cast<float>(place);
-                    } else {
-                        const float moved = static_cast<float>(place) - start_[start + l];
-                        box.low[k] = std::min(box.low[k], moved);
-                        box.high[k] = std::max(box.high[k], moved);
-                    }
-                }
-            }
-            std::array<double, kClusterSize> volumes{};
-            V.read(begin, in_cluster, volumes.data());
-            for (std::size_t l = 0; l < kClusterSize; ++l) record[l] = static_cast<S>(volumes[l]);
+            S* const record = &records_[c * stride_ + static_cast<std::size_t>(dimensions_) * kClusterSize];
+            for (std::size_t l = 0; l < kClusterSize; ++l)
+                record[l] = static_cast<S>(volumes[(c - first) * kClusterSize + l]);
         }
         if constexpr (!IsStart) {
-            const std::size_t block = first / kBlockClusters;
-            motion_[block] = box;
             for (int k = 0; k < 3; ++k) {
-                total_[block].low[k] = settled_[block].low[k] + box.low[k];
-                total_[block].high[k] = settled_[block].high[k] + box.high[k];
+                total_[block].low[k] = settled_[block].low[k] + motion_[block].low[k];
+                total_[block].high[k] = settled_[block].high[k] + motion_[block].high[k];
             }
         }
     });
+}
+
+// One coordinate of the clusters [first, last) of a block.
+template <class S>
+template <bool IsStart>
+void ClusterPoints<S>::pack_axis(const std::vector<double>& x, int axis, std::size_t first, std::size_t last) {
+    using FourFloats = Lanes<float, kClusterSize>::Vector;
+    const auto k = static_cast<std::size_t>(axis), dimensions = static_cast<std::size_t>(dimensions_);
+    const std::size_t block = first / kBlockClusters;
+    [[maybe_unused]] FourFloats low,
+        high;  // of the displacements of the first points of clusters, the second ones, ...
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    low = FourFloats{} + kInfinity;
+    high = -low;
+    for (std::size_t c = first; c < last; ++c) {
+        const std::size_t begin = c * kClusterSize, in_cluster = std::min(kClusterSize, count_ - begin);
+        const double centre = centre_of(reference_[c][k], step_);
+        const double* places = x.data() + begin;
+        std::array<double, kClusterSize> padded;
+        if (in_cluster < kClusterSize) {
+            padded.fill(centre + kOutOfReach * step_);
+            std::copy_n(places, in_cluster, padded.begin());
+            places = padded.data();
+        }
+        S* const record = &records_[c * stride_ + k * kClusterSize];
+        for (std::size_t l = 0; l < kClusterSize; ++l) record[l] = static_cast<S>(places[l] - centre);
+        std::array<float, kClusterSize> numbers;
+        for (std::size_t l = 0; l < kClusterSize; ++l) numbers[l] = static_cast<float>(places[l] - centre);
+        FourFloats place;
+        __builtin_memcpy(&place, numbers.data(), sizeof place);
+        if constexpr (IsStart) {
+            const Range range = range_of(x, begin, begin + in_cluster);
+            boxes_[block].set(axis, c - first, range.low - centre, range.high - centre);
+            if (start_.size() > 0) __builtin_memcpy(&start_[(c * dimensions + k) * kClusterSize], &place, sizeof place);
+        } else {
+            FourFloats moved;
+            __builtin_memcpy(&moved, &start_[(c * dimensions + k) * kClusterSize], sizeof moved);
+            moved = place - moved;
+            low = moved < low ? moved : low;
+            high = moved > high ? moved : high;
+        }
+    }
+    if constexpr (!IsStart) {
+        motion_[block].low[k] = std::min(std::min(low[0], low[1]), std::min(low[2], low[3]));
+        motion_[block].high[k] = std::max(std::max(high[0], high[1]), std::max(high[2], high[3]));
+    }
 }
 
 template class ClusterPoints<float>;

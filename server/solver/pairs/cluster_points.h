@@ -86,6 +86,8 @@ class ClusterPoints {
     void choose_references(const VectorField& x, double support);
     template <bool IsStart>
     void pack(const VectorField& x, const FieldView& V);
+    template <bool IsStart>
+    void pack_axis(const std::vector<double>& x, int axis, std::size_t first, std::size_t last);
 
     std::size_t count_{};
     int dimensions_{3};

@@ -4,10 +4,16 @@
 // What the first point of a pair gets is summed in registers, what the second gets is added to its sums in memory.
 // Blocks are taken in the order of their colours: every point's sums are formed in one order for any number of threads.
 //
-// A Pass has what pair_sums-inl.h asks for, walls left out, and
-//   exchange(self, pair, V_i, neighbour, sums, reaction)   adds what the pair contributes to its first and second point
+// A Pass has what pair_sums-inl.h asks for, walls and pair() left out, and
+//   Sums<T>                                      of the first points
+//   Change<T>                                    an array of T: what becomes of a point
+//   exchange(self, pair, V_i, neighbour, sums)   adds what the pair contributes to its first point; returns what its
+//                                                second loses
+//   gain(self, sums)                             of the first points
+//   store(i, change)
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "server/solver/pairs/block_colours.h"
 #include "server/solver/pairs/pair_sums-inl.h"
@@ -27,9 +33,9 @@ inline constexpr std::size_t in_fours(std::size_t sums) {
     return (sums + 3) / 4 * 4;
 }
 
-// Adds to the four numbers of each sum: number j gets lanes j, j + 4, ...
+// Takes from the four numbers of each sum: number j loses lanes j, j + 4, ...
 template <class S, std::size_t N>
-HWY_INLINE void add_columns(S* numbers, const std::array<PairLanes<S>, N>& sums) {
+HWY_INLINE void take_columns(S* numbers, const std::array<PairLanes<S>, N>& sums) {
 #if HWY_TARGET == HWY_AVX3
     if constexpr (sizeof(S) == 4) {
         // Halves first, of two sums in one vector, then quarters, of all four.
@@ -42,7 +48,7 @@ HWY_INLINE void add_columns(S* numbers, const std::array<PairLanes<S>, N>& sums)
             const auto sum = [&](std::size_t k) HWY_ATTR { return k < N ? sums[k] : PairLanes<S>(0.0); };
             const __m512 ab = halves(sum(s), sum(s + 1)), cd = halves(sum(s + 2), sum(s + 3));
             const __m512 all = _mm512_add_ps(_mm512_shuffle_f32x4(ab, cd, 0x88), _mm512_shuffle_f32x4(ab, cd, 0xdd));
-            _mm512_store_ps(numbers, _mm512_add_ps(_mm512_load_ps(numbers), all));
+            _mm512_store_ps(numbers, _mm512_sub_ps(_mm512_load_ps(numbers), all));
         }
         return;
     }
@@ -51,7 +57,7 @@ HWY_INLINE void add_columns(S* numbers, const std::array<PairLanes<S>, N>& sums)
         for (std::size_t j = 0; j < kClusterSize; ++j) {
             S sum = sums[s].v[j];
             for (std::size_t l = j + kClusterSize; l < PairLanes<S>::kCount; l += kClusterSize) sum += sums[s].v[l];
-            numbers[s * kClusterSize + j] += sum;
+            numbers[s * kClusterSize + j] -= sum;
         }
     }
 }
@@ -81,14 +87,6 @@ HWY_INLINE void add_rows(S* numbers, std::size_t first, std::array<PairLanes<S>,
     }
 }
 
-template <class Sums, class T>
-HWY_INLINE auto as_array(const Sums& sums) {
-    std::array<T, sizeof(Sums) / sizeof(T)> array;
-    for (std::size_t s = 0; s < array.size(); ++s)
-        __builtin_memcpy(&array[s].v, reinterpret_cast<const char*>(&sums) + s * sizeof(T), sizeof(T));
-    return array;
-}
-
 // Sums over the half list among the fluid.
 template <int D, class S>
 class HalfSums {
@@ -99,8 +97,8 @@ class HalfSums {
     template <class Pass>
     void run(const Pass& pass, const ClusterPoints<S>& points, const PairList<S>& list, const BlockColours& colours,
              const S* fields) {
-        using PointSums = typename Pass::template Sums<double>;
-        constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double), kNumbers = in_fours(kSums) * kClusterSize;
+        using Change = typename Pass::template Change<double>;
+        constexpr std::size_t kSums = std::tuple_size_v<Change>, kNumbers = in_fours(kSums) * kClusterSize;
         sums_.resize(points.clusters() * kNumbers);
         parallel_for(points.clusters(), kBlockClusters, [&](std::size_t first, std::size_t last, int) {
             std::fill(&sums_[0] + first * kNumbers, &sums_[0] + last * kNumbers, S{});
@@ -109,11 +107,9 @@ class HalfSums {
         parallel_for(points.size(), kBlockClusters * kClusterSize, [&](std::size_t first, std::size_t last, int) {
             for (std::size_t i = first; i < last; ++i) {
                 const S* of_cluster = &sums_[0] + i / kClusterSize * kNumbers + i % kClusterSize;
-                std::array<double, kSums> total;
-                for (std::size_t s = 0; s < kSums; ++s) total[s] = static_cast<double>(of_cluster[s * kClusterSize]);
-                PointSums sums;
-                __builtin_memcpy(static_cast<void*>(&sums), total.data(), sizeof sums);
-                pass.store(static_cast<Index>(i), sums);
+                Change change;
+                for (std::size_t s = 0; s < kSums; ++s) change[s] = static_cast<double>(of_cluster[s * kClusterSize]);
+                pass.store(static_cast<Index>(i), change);
             }
         });
     }
@@ -123,7 +119,8 @@ class HalfSums {
     HWY_NOINLINE void add_block(const Pass& shared_pass, const ClusterPoints<S>& points, const PairBlock<S>& block,
                                 std::size_t b, const S* fields) {
         using LaneSums = typename Pass::template Sums<T>;
-        constexpr std::size_t kSums = sizeof(LaneSums) / sizeof(T), kNumbers = in_fours(kSums) * kClusterSize;
+        using Change = typename Pass::template Change<T>;
+        constexpr std::size_t kSums = std::tuple_size_v<Change>, kNumbers = in_fours(kSums) * kClusterSize;
         constexpr std::size_t kAtOnce = T::kCount / 4, kFields = Pass::kFluidFields;
         const Pass pass = shared_pass;  // which the sums written cannot change: its constants stay in registers
         const std::size_t first = b * kBlockClusters, last = std::min(first + kBlockClusters, points.clusters());
@@ -141,7 +138,7 @@ class HalfSums {
                 for (std::size_t f = 0; f < kFields; ++f) self.field[f] = spread_four<S>(own_fields + 4 * f + part);
                 LaneSums sums{};
                 // The cluster with itself: each of its pairs is there both ways.
-                pass.template pair<false>(self, sight.meet(entries[0]), load_fields<kFields, S>(own_fields), sums);
+                pass.exchange(self, sight.meet(entries[0]), V_i, load_fields<kFields, S>(own_fields), sums);
                 // One ahead: the square root takes as long as the rest.
                 Pair<D, T> next;
                 if (count > 1) next = sight.meet(entries[1]);
@@ -149,12 +146,11 @@ class HalfSums {
                     const Pair<D, T> pair = next;
                     if (e + 1 < count) next = sight.meet(entries[e + 1]);
                     const std::size_t cluster = sight.cluster(entries[e]);
-                    LaneSums reaction{};
-                    pass.exchange(self, pair, V_i, load_fields<kFields, S>(fields + cluster * (4 * kFields)), sums,
-                                  reaction);
-                    add_columns<S, kSums>(all_sums + cluster * kNumbers, as_array<LaneSums, T>(reaction));
+                    const Change loss =
+                        pass.exchange(self, pair, V_i, load_fields<kFields, S>(fields + cluster * (4 * kFields)), sums);
+                    take_columns<S, kSums>(all_sums + cluster * kNumbers, loss);
                 }
-                add_rows<S, kSums>(all_sums + c * kNumbers, part, as_array<LaneSums, T>(sums));
+                add_rows<S, kSums>(all_sums + c * kNumbers, part, pass.gain(self, sums));
             }
         }
     }

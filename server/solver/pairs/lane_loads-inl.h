@@ -80,9 +80,9 @@ HWY_INLINE PairLanes<S> spread_four(const From* numbers) {
         } else {
             four = hn::DemoteTo(d4, hn::LoadU(hn::CappedTag<double, 4>(), numbers));
         }
-        const hn::Vec<decltype(d)> repeated{_mm512_broadcast_f32x4(four.raw)};
+        const hn::Vec<decltype(d)> low{_mm512_castps128_ps512(four.raw)};  // what is above it is not looked up
         PairLanes<S> lanes;
-        lanes.v = (typename PairLanes<S>::Vector)(hn::TableLookupLanes(repeated, hn::SetTableIndices(d, kEach)).raw);
+        lanes.v = (typename PairLanes<S>::Vector)(hn::TableLookupLanes(low, hn::SetTableIndices(d, kEach)).raw);
         return lanes;
     }
 #endif

@@ -52,10 +52,15 @@ class RelativeMotion {
 
     double largest2() const { return difference2(all_, all_); }  // of any block against any
 
-    // Before is_longer(): the radii about the middle of all motion, which decide most cases.
+    // Before the following: the radii about the middle of all motion, which decide most cases.
     void measure_radii() {
         centre_radii_ = radii(centres_);
         neighbour_radii_ = radii(neighbours_);
+        largest_radius_ = *std::max_element(neighbour_radii_.begin(), neighbour_radii_.end());
+    }
+    // false: is_longer() is so for every neighbour.
+    bool can_be_longer(std::size_t centre, double way) const {
+        return !(centre_radii_[centre] + largest_radius_ < static_cast<float>(way));
     }
     bool is_longer(std::size_t centre, std::size_t neighbour, double way) const {
         if (centre_radii_[centre] + neighbour_radii_[neighbour] < static_cast<float>(way)) return false;
@@ -81,6 +86,7 @@ class RelativeMotion {
     const std::vector<MotionBox>&centres_, &neighbours_;
     MotionBox all_;
     std::vector<float> centre_radii_, neighbour_radii_;
+    float largest_radius_{};
 };
 
 }  // namespace
@@ -288,9 +294,13 @@ Coverage PairList<S>::cover(const ClusterPoints<S>& centres, const ClusterPoints
             for (std::size_t b = first; b < last; ++b) {
                 PairBlock<S>& block = blocks_[b];
                 open.clear();
-                for (const Index j : block.nearby) {
-                    if (total.is_longer(b, j, skin_)) open.push_back(j);
-                    if (!block.is_whole && recent.is_longer(b, j, inner_skin_)) block.bring_back();
+                if (total.can_be_longer(b, skin_)) {
+                    for (const Index j : block.nearby)
+                        if (total.is_longer(b, j, skin_)) open.push_back(j);
+                }
+                if (!block.is_whole && recent.can_be_longer(b, inner_skin_)) {
+                    const auto is_outrun = [&](Index j) { return recent.is_longer(b, j, inner_skin_); };
+                    if (std::any_of(block.nearby.begin(), block.nearby.end(), is_outrun)) block.bring_back();
                 }
                 here.whole_blocks += block.is_whole;
                 if (open.empty()) continue;

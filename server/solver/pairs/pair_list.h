@@ -66,12 +66,12 @@ struct ReachOptions {
     double support{};                    // [m]
     double skin{};                       // [m]
     double inner_skin{};                 // [m] of the pruned list
-    double far_skins{3.0};               // blocks this many skins further apart are compared for their motion, too
     Vec3 period{};                       // [m]
     const PairVisibility* visibility{};  // null: all pairs may interact
     // Is each pair listed once, by the cluster that comes first? Each cluster lists itself, as its first entry. Only
     // where centres and neighbours are the same points, and all may interact.
     bool is_half{};
+    double far_skins{3.0};  // blocks so many skins further apart than the reach are compared for their motion, too
 };
 
 // Do the loops see all pairs within the support, after the motion since the list was made?

@@ -36,7 +36,7 @@ TEST_CASE("Lanes.DoToEachNumberWhatTheScalarFunctionsDo") {
     const Numbers a = random_numbers(1), b = random_numbers(2);
     const Eight x = a.lanes(), y = b.lanes();
     const Eight one = splat<Eight>(1.5), large = maximum<Eight>(x, y), small = minimum<Eight>(x, y),
-                positive = positive_or_zero<Eight>(x), chosen = less_or(x, y, x * 2.0, 3.0 * y),
+                positive = positive_or_zero(x), chosen = less_or(x, y, x * 2.0, 3.0 * y),
                 quotient = (x - y) / (x + 2.0);
     for (std::size_t k = 0; k < kLanes; ++k) {
         CHECK(x[k] == a.value[k]);
