@@ -141,7 +141,7 @@ TEST_CASE("SpeedSums.HalfListsGiveTheSameBitsForAnyNumberOfThreads") {
         bench::StageSeconds seconds;
         sums->compute(fluid, seconds);
         bench::start_plain_fluid(fluid);
-        for (int step = 0; step < 12; ++step) {
+        for (int step = 0; step < 30; ++step) {
             bench::advance_plain_fluid(fluid);
             sums->compute(fluid, seconds);
         }
