@@ -69,8 +69,8 @@ HEADRACE_ALWAYS_INLINE T minimum(const T& a, const T& b) {
 HEADRACE_ALWAYS_INLINE double positive_or_zero(double a) {
     return a > 0.0 ? a : 0.0;
 }
-// Numbers that are not negative compare as the integers of their bits do: their maximum is one instruction where that
-// of floating-point numbers, with what it has to say of NaN and of -0, is two.
+// Numbers that are not negative compare as the integers of their bits do, and negative ones have a negative integer:
+// one instruction, where the same choice between floating-point numbers takes two. NaN: 0 or NaN, by its sign.
 template <class S, std::size_t N>
 HEADRACE_ALWAYS_INLINE Lanes<S, N> positive_or_zero(const Lanes<S, N>& a) {
     using Bits = decltype(a.v < a.v);

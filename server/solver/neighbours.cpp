@@ -12,25 +12,13 @@ namespace {
 // away: covers |x| up to 1e9 cells (rounding 1e9 * 2^-52 = 2e-7).
 constexpr double kCellMargin = 1e-6;
 
-// Beyond this cell, and for positions that are not numbers, particles share the outermost cell: a faulted state may
-// be looked at without harm.
-constexpr double kOutermost = 1e15;
-
-std::int64_t cell_coordinate(double x, double inv_side) {
-    const double cell = x * inv_side;
-    if (!(cell > -kOutermost)) return static_cast<std::int64_t>(-kOutermost);
-    const auto truncated = static_cast<std::int64_t>(std::min(cell, kOutermost));
-    return truncated - (cell < static_cast<double>(truncated));  // floor, without a call
-}
-
 }  // namespace
 
 void CellGrid::build(const VectorField& x, const std::vector<Index>& id, int dimensions, double support,
                      const Domain* domain) {
-    dimensions_ = dimensions;
-    divide(support, domain);
+    divide(dimensions, support, domain);
     order_.resize(id.size());
-    measure(x, id.size());
+    range_ = division_.range_of(x, id.size());
     choose_layout(id.size());
     if (is_dense_) {
         order_dense(x, id);
@@ -43,74 +31,26 @@ void CellGrid::sort(Particles& particles, double support) {
     build(particles.x, particles.id, particles.dimensions, support);
     permute(particles.id, scratch_id_);
     for (VectorField* field : {&particles.x, &particles.v_half, &particles.v}) {
-        for (int axis = 0; axis < dimensions_; ++axis) permute((*field)[axis], scratch_);
+        for (int axis = 0; axis < particles.dimensions; ++axis) permute((*field)[axis], scratch_);
     }
 }
 
 // Cells of side >= support; along a periodic axis as many as fit.
-void CellGrid::divide(double support, const Domain* domain) {
+void CellGrid::divide(int dimensions, double support, const Domain* domain) {
     const double side = support * (1.0 + kCellMargin);
-    for (int axis = 0; axis < 3; ++axis) {
-        inv_side_[axis] = 1.0 / side;
-        origin_[axis] = 0.0;
-        period_[axis] = 0;
-        if (domain == nullptr || !domain->periodic[axis] || axis >= dimensions_) continue;
-        const double length = domain->max[axis] - domain->min[axis];
-        assert(fits_period(length, support));
-        period_[axis] = static_cast<std::int64_t>(length / side);
-        inv_side_[axis] = static_cast<double>(period_[axis]) / length;
-        origin_[axis] = domain->min[axis];
-    }
+    const Domain open;
+    if (domain == nullptr) domain = &open;
+    for (int axis = 0; axis < dimensions; ++axis)
+        assert(!domain->periodic[axis] || fits_period(domain->max[axis] - domain->min[axis], support));
+    division_.divide(dimensions, {side, side, side}, *domain);
 }
 
-CellGrid::Coordinates CellGrid::find_coordinates(const VectorField& x, std::size_t i) const {
-    Coordinates cell{};
-    for (int axis = 0; axis < dimensions_; ++axis) {
-        std::int64_t& c = cell[2 - axis];
-        c = cell_coordinate(x[axis][i] - origin_[axis], inv_side_[axis]);
-        if (period_[axis] > 0) c = std::clamp<std::int64_t>(c, 0, period_[axis] - 1);  // rounding at the very end
-    }
-    return cell;
-}
-
-// The box of cells the particles occupy.
-void CellGrid::measure(const VectorField& x, std::size_t count) {
-    struct Range {
-        Coordinates lowest, highest;
-    };
-    const Range none{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
-    const auto join = [](Range a, const Range& b) {
-        for (int k = 0; k < 3; ++k) {
-            a.lowest[k] = std::min(a.lowest[k], b.lowest[k]);
-            a.highest[k] = std::max(a.highest[k], b.highest[k]);
-        }
-        return a;
-    };
-    const Range range = parallel_reduce(
-        count, none,
-        [&](std::size_t begin, std::size_t end) {
-            Range block = none;
-            for (std::size_t i = begin; i < end; ++i) {
-                const Coordinates cell = find_coordinates(x, i);
-                block = join(block, {cell, cell});
-            }
-            return block;
-        },
-        join);
-    lowest_ = count > 0 ? range.lowest : Coordinates{};
-    highest_ = count > 0 ? range.highest : Coordinates{};
-}
-
-// Products in floating point, since they may exceed any integer.
 void CellGrid::choose_layout(std::size_t count) {
-    std::array<double, 3> width{};
-    for (int k = 0; k < 3; ++k) width[k] = static_cast<double>(highest_[k] - lowest_[k]) + 1.0;
-    const std::size_t allowed = std::max(kDenseMinimum, kDenseCells * count);
-    is_dense_ = width[0] * width[1] * width[2] <= static_cast<double>(allowed);
+    is_dense_ = range_.bins() <= static_cast<double>(std::max(kDenseMinimum, kDenseCells * count));
     if (!is_dense_) return;
-    row_ = static_cast<std::size_t>(width[2]);
-    layer_ = row_ * static_cast<std::size_t>(width[1]);
-    start_.assign(layer_ * static_cast<std::size_t>(width[0]) + 1, 0);
+    row_ = static_cast<std::size_t>(range_.width(2));
+    layer_ = row_ * static_cast<std::size_t>(range_.width(1));
+    start_.assign(layer_ * static_cast<std::size_t>(range_.width(0)) + 1, 0);
 }
 
 // Counting sort. Ranks within a cell are handed out in any order, then ids decide.
@@ -120,10 +60,10 @@ void CellGrid::order_dense(const VectorField& x, const std::vector<Index>& id) {
     rank_.resize(count);
     parallel_for(count, kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Coordinates cell = find_coordinates(x, i);
-            const std::size_t number = layer_ * static_cast<std::size_t>(cell[0] - lowest_[0]) +
-                                       row_ * static_cast<std::size_t>(cell[1] - lowest_[1]) +
-                                       static_cast<std::size_t>(cell[2] - lowest_[2]);
+            const Coordinates cell = division_.find(x, i);
+            const std::size_t number = layer_ * static_cast<std::size_t>(cell[0] - range_.lowest[0]) +
+                                       row_ * static_cast<std::size_t>(cell[1] - range_.lowest[1]) +
+                                       static_cast<std::size_t>(cell[2] - range_.lowest[2]);
             number_[i] = static_cast<Index>(number);
             Index rank;
 #pragma omp atomic capture
@@ -141,9 +81,9 @@ void CellGrid::order_dense(const VectorField& x, const std::vector<Index>& id) {
         start_[cell] = sum;
         if (in_cell == 0) continue;
         first_.push_back(sum);
-        cell_coordinates_.push_back({lowest_[0] + static_cast<std::int64_t>(cell / layer_),
-                                     lowest_[1] + static_cast<std::int64_t>(cell % layer_ / row_),
-                                     lowest_[2] + static_cast<std::int64_t>(cell % row_)});
+        cell_coordinates_.push_back({range_.lowest[0] + static_cast<std::int64_t>(cell / layer_),
+                                     range_.lowest[1] + static_cast<std::int64_t>(cell % layer_ / row_),
+                                     range_.lowest[2] + static_cast<std::int64_t>(cell % row_)});
         sum += in_cell;
     }
     first_.push_back(sum);
@@ -164,7 +104,7 @@ void CellGrid::order_sparse(const VectorField& x, const std::vector<Index>& id) 
     const std::size_t count = id.size();
     std::vector<Coordinates> cell_of(count);
     for (std::size_t i = 0; i < count; ++i) {
-        cell_of[i] = find_coordinates(x, i);
+        cell_of[i] = division_.find(x, i);
         order_[i] = static_cast<Index>(i);
     }
     std::sort(order_.begin(), order_.end(),
@@ -182,15 +122,15 @@ void CellGrid::order_sparse(const VectorField& x, const std::vector<Index>& id) 
 
 // Particles of the cells x_first..x_last of a row: one run, since x is fastest.
 Run CellGrid::find_run(std::int64_t z, std::int64_t y, std::int64_t x_first, std::int64_t x_last) const {
-    if (z < lowest_[0] || z > highest_[0] || y < lowest_[1] || y > highest_[1]) return {};
-    x_first = std::max(x_first, lowest_[2]);
-    x_last = std::min(x_last, highest_[2]);
+    if (z < range_.lowest[0] || z > range_.highest[0] || y < range_.lowest[1] || y > range_.highest[1]) return {};
+    x_first = std::max(x_first, range_.lowest[2]);
+    x_last = std::min(x_last, range_.highest[2]);
     if (x_first > x_last) return {};
     if (is_dense_) {
-        const std::size_t row =
-            layer_ * static_cast<std::size_t>(z - lowest_[0]) + row_ * static_cast<std::size_t>(y - lowest_[1]);
-        return {start_[row + static_cast<std::size_t>(x_first - lowest_[2])],
-                start_[row + static_cast<std::size_t>(x_last - lowest_[2]) + 1],
+        const std::size_t row = layer_ * static_cast<std::size_t>(z - range_.lowest[0]) +
+                                row_ * static_cast<std::size_t>(y - range_.lowest[1]);
+        return {start_[row + static_cast<std::size_t>(x_first - range_.lowest[2])],
+                start_[row + static_cast<std::size_t>(x_last - range_.lowest[2]) + 1],
                 {}};
     }
     const auto first_not_before = [&](const Coordinates& cell) {
@@ -205,9 +145,10 @@ Neighbourhood CellGrid::around(const Coordinates& here) const {
     if (cells() == 0) return near;
     // The coordinate inside the period, and by how many periods the particles there are to be displaced.
     const auto wrap = [&](int axis, std::int64_t& c) -> signed char {
-        if (period_[axis] == 0) return 0;
-        if (c < 0) return c += period_[axis], static_cast<signed char>(-1);
-        if (c >= period_[axis]) return c -= period_[axis], static_cast<signed char>(1);
+        if (division_.bins_in_period(axis) == 0) return 0;
+        if (c < 0) return c += division_.bins_in_period(axis), static_cast<signed char>(-1);
+        if (c >= division_.bins_in_period(axis))
+            return c -= division_.bins_in_period(axis), static_cast<signed char>(1);
         return 0;
     };
     const auto add = [&](Run run, const std::array<signed char, 3>& image) {
@@ -216,14 +157,14 @@ Neighbourhood CellGrid::around(const Coordinates& here) const {
         near.run[near.runs++] = run;
         near.particles += run.end - run.begin;
     };
-    const int layers = dimensions_ == 3 ? 1 : 0;
+    const int layers = division_.dimensions() == 3 ? 1 : 0;
     for (int dz = -layers; dz <= layers; ++dz) {
         std::int64_t z = here[0] + dz;
         const signed char image_z = wrap(2, z);
         for (int dy = -1; dy <= 1; ++dy) {
             std::int64_t y = here[1] + dy;
             const signed char image_y = wrap(1, y);
-            const std::int64_t x = here[2], n = period_[0];
+            const std::int64_t x = here[2], n = division_.bins_in_period(0);
             if (n > 0 && x == 0) add(find_run(z, y, n - 1, n - 1), {-1, image_y, image_z});
             const std::int64_t x_first = n > 0 ? std::max<std::int64_t>(x - 1, 0) : x - 1;
             const std::int64_t x_last = n > 0 ? std::min(x + 1, n - 1) : x + 1;

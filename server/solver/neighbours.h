@@ -24,6 +24,7 @@
 #include "server/solver/objects.h"
 #include "server/solver/parallel.h"
 #include "server/solver/particles.h"
+#include "server/solver/space_division.h"
 
 namespace headrace::solver {
 
@@ -43,7 +44,7 @@ struct Neighbourhood {
 
 class CellGrid {
   public:
-    using Coordinates = std::array<std::int64_t, 3>;  // z, y, x: compares lexicographically, x fastest
+    using Coordinates = Bin;  // compares lexicographically, x fastest
 
     // Finds the order of the points: cells of side >= `support`. Along the domain's periodic axes x must lie inside
     // [min, max), and max - min must be at least three times the support (fits_period).
@@ -70,23 +71,17 @@ class CellGrid {
     static constexpr std::size_t kDenseMinimum = 65536;  // small scenes may always have this many
 
     Run find_run(std::int64_t z, std::int64_t y, std::int64_t x_first, std::int64_t x_last) const;
-    Coordinates find_coordinates(const VectorField& x, std::size_t i) const;
-    void divide(double support, const Domain* domain);
-    void measure(const VectorField& x, std::size_t count);
+    void divide(int dimensions, double support, const Domain* domain);
     void choose_layout(std::size_t count);
     void order_dense(const VectorField& x, const std::vector<Index>& id);
     void order_sparse(const VectorField& x, const std::vector<Index>& id);
 
-    int dimensions_{3};
-    std::array<double, 3> inv_side_{};      // [1/m] by axis
-    std::array<double, 3> origin_{};        // [m] by axis
-    std::array<std::int64_t, 3> period_{};  // [cells] by axis; 0: not periodic
+    SpaceDivision division_;
+    BinRange range_;  // of the occupied cells
     bool is_dense_{true};
     std::vector<Index> first_{0};                // [cells + 1] first particle of each occupied cell
     std::vector<Coordinates> cell_coordinates_;  // [cells]
     std::vector<Index> order_;                   // [N] old slot of the particle that belongs into this slot
-
-    Coordinates lowest_{}, highest_{};  // of the occupied cells
 
     // dense: all cells of the bounding box
     std::size_t row_{}, layer_{};  // cells from one row to the next, from one layer to the next

@@ -82,7 +82,7 @@ struct PlainPass {
     double diffusion;  // xi h c0 [m^2/s]
     PlainFluid& fluid;
 
-    // Per volume of the point in half lists.
+    // Of half lists: times the volume of the point.
     template <class T>
     struct Sums {
         std::array<T, D> push{};

@@ -8,7 +8,7 @@
 namespace headrace::solver {
 namespace {
 
-// Of each block the boxes that its points are in, each once, ascending; first[b]: where those of block b begin.
+// Of each block the boxes that its points are in, each once; first[b]: where those of block b begin.
 // box_of_slot: of each point in the order.
 template <class Box>
 std::vector<Box> boxes_of_blocks(std::vector<Box> box_of_slot, std::size_t block_size, std::vector<Index>& first) {
@@ -24,7 +24,6 @@ std::vector<Box> boxes_of_blocks(std::vector<Box> box_of_slot, std::size_t block
             for (auto box = own; box != own_end; ++box) {
                 if (std::find(own, last, *box) == last) *last++ = *box;
             }
-            std::sort(own, last);
             first[b + 1] = static_cast<Index>(last - own);
         }
     });
@@ -47,12 +46,10 @@ void BlockGrid::build(const SpaceDivision& division, const BinRange& range, cons
     box_of_.clear();
     entries_.clear();
     if (order.empty()) return;
-    for (int c = 0; c < 3; ++c) boxes_[c] = ((range.width(c) - 1) >> box_shift[c]) + 1;
+    const BinRange all{{}, box_of(range.highest)};
+    for (int c = 0; c < 3; ++c) boxes_[c] = all.width(c);
     const std::size_t blocks = (order.size() + block_size - 1) / block_size;
-    // In floating point, since the product may exceed any integer.
-    const double boxes =
-        static_cast<double>(boxes_[0]) * static_cast<double>(boxes_[1]) * static_cast<double>(boxes_[2]);
-    is_dense_ = boxes <= static_cast<double>(std::max(kDenseMinimum, kDenseBoxes * blocks));
+    is_dense_ = all.bins() <= static_cast<double>(std::max(kDenseMinimum, kDenseBoxes * blocks));
     const auto find_all = [&](auto&& number) {
         std::vector<decltype(number(Box{}))> found(order.size());
         parallel_for(order.size(), kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
@@ -66,7 +63,7 @@ void BlockGrid::build(const SpaceDivision& division, const BinRange& range, cons
         const std::vector<Index> numbers = boxes_of_blocks(
             find_all([&](const Box& box) { return static_cast<Index>(number_of(box)); }), block_size, first);
         // Counting sort.
-        start_.assign(static_cast<std::size_t>(boxes) + 2, 0);
+        start_.assign(static_cast<std::size_t>(all.bins()) + 2, 0);
         for (const Index number : numbers) ++start_[number + 2];
         std::partial_sum(start_.begin(), start_.end(), start_.begin());
         entries_.resize(numbers.size());

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "server/solver/pairs/space_division.h"
 #include "server/solver/particles.h"
+#include "server/solver/space_division.h"
 
 namespace headrace::solver {
 

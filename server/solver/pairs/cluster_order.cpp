@@ -68,10 +68,7 @@ std::size_t ClusterOrder::number_of(const Bin& bin) const {
 }
 
 bool ClusterOrder::is_dense() const {
-    // In floating point, since the product may exceed any integer.
-    const double bins = static_cast<double>(range_.width(0)) * static_cast<double>(range_.width(1)) *
-                        static_cast<double>(range_.width(2));
-    return bins <= static_cast<double>(std::max(kDenseMinimum, kDenseBins * count_));
+    return range_.bins() <= static_cast<double>(std::max(kDenseMinimum, kDenseBins * count_));
 }
 
 // Counting sort. Places within a bin are handed out in any order, then ids decide.

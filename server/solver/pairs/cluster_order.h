@@ -20,9 +20,9 @@
 
 #include "server/solver/objects.h"
 #include "server/solver/pairs/block_grid.h"
-#include "server/solver/pairs/space_division.h"
 #include "server/solver/parallel.h"
 #include "server/solver/particles.h"
+#include "server/solver/space_division.h"
 
 namespace headrace::solver {
 

@@ -138,8 +138,8 @@ void ClusterPoints<S>::pack_axis(const std::vector<double>& x, int axis, std::si
     using FourFloats = Lanes<float, kClusterSize>::Vector;
     const auto k = static_cast<std::size_t>(axis), dimensions = static_cast<std::size_t>(dimensions_);
     const std::size_t block = first / kBlockClusters;
-    [[maybe_unused]] FourFloats low,
-        high;  // of the displacements of the first points of clusters, the second ones, ...
+    // Of the displacements of the first points of clusters, the second ones, ...
+    [[maybe_unused]] FourFloats low, high;
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     low = FourFloats{} + kInfinity;
     high = -low;

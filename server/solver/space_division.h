@@ -17,6 +17,10 @@ struct BinRange {
     Bin lowest{}, highest{};
 
     std::int64_t width(int c) const { return highest[c] - lowest[c] + 1; }
+    // All bins in the range: in floating point, since their number may exceed any integer.
+    double bins() const {
+        return static_cast<double>(width(0)) * static_cast<double>(width(1)) * static_cast<double>(width(2));
+    }
 };
 
 class SpaceDivision {

@@ -1,4 +1,4 @@
-#include "server/solver/pairs/space_division.h"
+#include "server/solver/space_division.h"
 
 #include "server/solver/parallel.h"
 
@@ -10,14 +10,14 @@ void SpaceDivision::divide(int dimensions, const Vec3& side, const Domain& domai
     origin_ = period_ = {};
     bins_in_period_ = {};
     for (int axis = 0; axis < dimensions; ++axis) {
-        if (domain.periodic[axis]) {
-            origin_[axis] = domain.min[axis];
-            period_[axis] = domain.max[axis] - domain.min[axis];
-            const double whole = std::max(1.0, std::floor(period_[axis] / side_[axis]));
-            bins_in_period_[axis] = static_cast<std::int64_t>(whole);
-            side_[axis] = period_[axis] / whole;
-        }
         inv_side_[axis] = 1.0 / side_[axis];
+        if (!domain.periodic[axis]) continue;
+        origin_[axis] = domain.min[axis];
+        period_[axis] = domain.max[axis] - domain.min[axis];
+        const double whole = std::max(1.0, std::floor(period_[axis] / side_[axis]));
+        bins_in_period_[axis] = static_cast<std::int64_t>(whole);
+        side_[axis] = period_[axis] / whole;
+        inv_side_[axis] = whole / period_[axis];
     }
 }
 
