@@ -57,7 +57,7 @@ PlainFluid make_developed_flow(const PlainCase& one, int warmup) {
 
 // Is it the flow it should be? A density that has left its range would be another case.
 bool is_sound(const PlainFluid& fluid) {
-    const auto [low, high] = std::minmax_element(fluid.delta.begin(), fluid.delta.end());
+    const auto [low, high] = std::minmax_element(fluid.delta_half.begin(), fluid.delta_half.end());
     return *low > -0.05 && *high < 0.1;  // false for NaN among the first, and NaN spreads
 }
 

@@ -53,9 +53,8 @@ PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp, in
         fluid.domain.max[k] = length;
         fluid.domain.periodic[k] = true;
         for (solver::VectorField* field : {&fluid.x, &fluid.v_half}) (*field)[k].resize(count);
-        for (solver::NarrowField* field : {&fluid.v, &fluid.a}) (*field)[k].resize(count);
+        fluid.a[k].resize(count);
     }
-    fluid.delta.assign(count, static_cast<float>(kMeanDelta));
     fluid.delta_half.assign(count, kMeanDelta);
     fluid.delta_rate.resize(count);
     fluid.V.assign(count, static_cast<float>(std::pow(kSpacing, dimensions)));
@@ -69,7 +68,7 @@ PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp, in
             x[k] = fluid.x[k][i] = (place + 0.5 + uniform(random)) * kSpacing;
         }
         const solver::Vec3 v = vortex(dimensions, x, 2.0 * std::numbers::pi * waves / length, kMach * kSoundSpeed);
-        for (int k = 0; k < dimensions; ++k) fluid.v[k][i] = static_cast<float>(v[k]);
+        for (int k = 0; k < dimensions; ++k) fluid.v_half[k][i] = v[k];
     }
     return fluid;
 }
@@ -78,9 +77,8 @@ void start_plain_fluid(PlainFluid& fluid) {
     const double half = 0.5 * fluid.dt;
     for_blocks(fluid, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            for (int k = 0; k < fluid.dimensions; ++k)
-                fluid.v_half[k][i] = static_cast<double>(fluid.v[k][i]) - half * static_cast<double>(fluid.a[k][i]);
-            fluid.delta_half[i] = kMeanDelta - half * static_cast<double>(fluid.delta_rate[i]);
+            for (int k = 0; k < fluid.dimensions; ++k) fluid.v_half[k][i] -= half * static_cast<double>(fluid.a[k][i]);
+            fluid.delta_half[i] -= half * static_cast<double>(fluid.delta_rate[i]);
         }
     });
 }
@@ -91,21 +89,16 @@ void advance_plain_fluid(PlainFluid& fluid) {
     for_blocks(fluid, [&](std::size_t begin, std::size_t end) {
         for (int k = 0; k < fluid.dimensions; ++k) {
             double *x = fluid.x[k].data(), *v_half = fluid.v_half[k].data();
-            float* v = fluid.v[k].data();
-            const float* narrow_a = fluid.a[k].data();
+            const float* a = fluid.a[k].data();
             for (std::size_t i = begin; i < end; ++i) {
-                const double a = narrow_a[i];
-                v_half[i] += dt * a;
+                v_half[i] += dt * static_cast<double>(a[i]);
                 x[i] += dt * v_half[i];
-                v[i] = static_cast<float>(v_half[i] + half * a);
             }
         }
         for (std::size_t i = begin; i < end; ++i) {
             const double rate = fluid.delta_rate[i];
             fluid.delta_half[i] += dt * rate;
-            const double delta = fluid.delta_half[i] + half * rate;
-            fluid.delta[i] = static_cast<float>(delta);
-            fluid.V[i] = static_cast<float>(mass / (1.0 + delta));
+            fluid.V[i] = static_cast<float>(mass / (1.0 + fluid.delta_half[i] + half * rate));
         }
     });
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 #include "server/solver/forces/artificial_viscosity.h"
@@ -30,10 +31,16 @@ struct PlainFluid {
     std::vector<solver::Index> id;
     solver::VectorField x, v_half;
     std::vector<double> delta_half;
-    solver::NarrowField v, a;                 // v, delta: extrapolated to the time of x
-    std::vector<float> V, delta, delta_rate;  // [m^3] (2D: m^2), [1], [1/s]
+    solver::NarrowField a;
+    std::vector<float> V, delta_rate;  // [m^3] (2D: m^2), [1/s]
 
     std::size_t size() const { return id.size(); }
+    // At the time of x: nothing that is stored.
+    solver::FieldView v(int axis) const { return solver::FieldView::extrapolated(v_half[axis], 0.5 * dt, a[axis]); }
+    solver::FieldView delta() const { return solver::FieldView::extrapolated(delta_half, 0.5 * dt, delta_rate); }
+    double rho(solver::Index i) const {  // over rho0
+        return 1.0 + delta_half[i] + 0.5 * dt * static_cast<double>(delta_rate[i]);
+    }
 };
 
 // A lattice of edge^D points, jittered, in Taylor and Green's vortex (3D: Arnold, Beltrami and Childress's) at a Mach
@@ -43,24 +50,26 @@ PlainFluid make_plain_fluid(int dimensions, int edge, double support_over_dp, in
 // The rates are known for the first time: starts v_half and delta_half.
 void start_plain_fluid(PlainFluid& fluid);
 
-// Kick and drift: v_half and delta_half to the middle of the step, x to its end, v and delta extrapolated there.
+// Kick and drift: v_half and delta_half to the middle of the step, x to its end.
 void advance_plain_fluid(PlainFluid& fluid);
 
 // Brings x back into the period.
 void wrap_plain_fluid(PlainFluid& fluid);
 
-// Puts all but the rates into the order that Order (ClusterOrder, CellGrid) found.
+// Puts all into the order that Order (ClusterOrder, CellGrid) found.
 template <class Order>
 void permute_plain_fluid(PlainFluid& fluid, const Order& order) {
-    std::vector<solver::Index> id_scratch;
-    std::vector<double> scratch;
-    std::vector<float> narrow_scratch;
-    order.permute(fluid.id, id_scratch);
-    for (solver::VectorField* field : {&fluid.x, &fluid.v_half})
-        for (int k = 0; k < fluid.dimensions; ++k) order.permute((*field)[k], scratch);
-    order.permute(fluid.delta_half, scratch);
-    for (int k = 0; k < fluid.dimensions; ++k) order.permute(fluid.v[k], narrow_scratch);
-    for (std::vector<float>* field : {&fluid.V, &fluid.delta}) order.permute(*field, narrow_scratch);
+    const auto permute = [&]<class T>(std::initializer_list<std::vector<T>*> fields) {
+        std::vector<T> scratch;  // of one type at a time
+        for (std::vector<T>* field : fields) order.permute(*field, scratch);
+    };
+    permute({&fluid.id});
+    for (int k = 0; k < fluid.dimensions; ++k) {
+        permute({&fluid.x[k], &fluid.v_half[k]});
+        permute({&fluid.a[k]});
+    }
+    permute({&fluid.delta_half});
+    permute({&fluid.V, &fluid.delta_rate});
 }
 
 // Its terms as a pass of the pair engine (pairs/pair_sums-inl.h).
@@ -92,17 +101,10 @@ struct PlainPass {
     using Change = std::array<T, D + 1>;  // push, rate of delta
 
     std::array<const float*, 0> centre_fields() const { return {}; }
-    // For strategies that do not pack fields.
-    std::array<const float*, kOwnFields> own_fields() const {
-        std::array<const float*, kOwnFields> fields;
-        for (int k = 0; k < D; ++k) fields[k] = fluid.v[k].data();
-        fields[D] = fluid.delta.data();
-        return fields;
-    }
     std::array<solver::FieldView, kFluidFields> fluid_fields() const {
         std::array<solver::FieldView, kFluidFields> fields;
-        for (int k = 0; k < D; ++k) fields[k] = fluid.v[k];
-        fields[D] = fluid.delta;
+        for (int k = 0; k < D; ++k) fields[k] = fluid.v(k);
+        fields[D] = fluid.delta();
         return fields;
     }
 
@@ -129,7 +131,7 @@ struct PlainPass {
     }
 
     void store(solver::Index i, const Sums<double>& sums) const {
-        store(i, gain_of<double>(static_cast<double>(fluid.delta[i]), sums), 1.0);
+        store(i, gain_of<double>(fluid.rho(i) - 1.0, sums), 1.0);
     }
     void store(solver::Index i, const Change<double>& change) const {
         store(i, change, static_cast<double>(fluid.V[i]));
@@ -177,7 +179,7 @@ struct PlainPass {
 
     // change: times `volume`
     void store(solver::Index i, const Change<double>& change, double volume) const {
-        const double rho = 1.0 + static_cast<double>(fluid.delta[i]), per_mass = 1.0 / (rho * volume);  // over rho0
+        const double rho = fluid.rho(i), per_mass = 1.0 / (rho * volume);  // over rho0
         const double c2 = fluid.sound_speed * fluid.sound_speed;
         for (int k = 0; k < D; ++k) fluid.a[k][i] = static_cast<float>(-c2 * per_mass * change[k]);
         fluid.delta_rate[i] = static_cast<float>(rho * per_mass * change[D]);

@@ -90,6 +90,22 @@ class ClusterSums final : public PlainSums {
 
 // ---- candidates of a cell, side by side -----------------------------------------------------------------------------
 
+// v and delta of all particles, as loops without packed fields read them.
+template <int D>
+using NarrowFields = std::array<std::vector<float>, D + 1>;
+
+template <int D>
+void fill_narrow(const PlainPass<D>& pass, std::size_t count, NarrowFields<D>& fields) {
+    for (std::vector<float>& field : fields) field.resize(count);
+    solver::parallel_for(count, solver::kParticleBlock, [&](std::size_t begin, std::size_t end, int) {
+        std::array<double, solver::kParticleBlock> values;
+        for (std::size_t f = 0; f <= D; ++f) {
+            pass.fluid_fields()[f].read(begin, end - begin, values.data());
+            std::copy_n(values.data(), end - begin, fields[f].data() + begin);
+        }
+    });
+}
+
 // x, v, delta and V of the particles of the cells around a cell, field by field, relative to a point of the cell; out
 // of reach beyond the last one.
 template <int D>
@@ -97,7 +113,8 @@ class CandidateBuffer {
   public:
     static constexpr std::size_t kFields = 2 * D + 2, kV = 2 * D + 1;
 
-    HWY_NOINLINE void fill(const PlainFluid& fluid, const solver::CellGrid& grid, std::size_t c) {
+    HWY_NOINLINE void fill(const PlainFluid& fluid, const NarrowFields<D>& fields, const solver::CellGrid& grid,
+                           std::size_t c) {
         const solver::Neighbourhood near = grid.around(c);
         constexpr std::size_t N = kPairLanes<float>;
         count_ = near.particles;
@@ -110,9 +127,8 @@ class CandidateBuffer {
             for (int k = 0; k < D; ++k) {
                 const double shift = run.image[k] * (fluid.domain.max[k] - fluid.domain.min[k]) - origin_[k];
                 copy(fluid.x[k].data(), run, shift, field(k) + at);
-                copy(fluid.v[k].data(), run, field(D + static_cast<std::size_t>(k)) + at);
             }
-            copy(fluid.delta.data(), run, field(2 * D) + at);
+            for (std::size_t f = 0; f <= D; ++f) copy(fields[f].data(), run, field(D + f) + at);
             copy(fluid.V.data(), run, field(kV) + at);
             at += run.end - run.begin;
         }
@@ -155,12 +171,11 @@ HWY_INLINE T load(const float* from) {
 
 // Vectors of candidates against one particle after the other.
 template <int D>
-HWY_NOINLINE void sum_cell_buffered(const PlainPass<D>& pass, const CandidateBuffer<D>& candidates, Index begin,
-                                    Index end) {
+HWY_NOINLINE void sum_cell_buffered(const PlainPass<D>& pass, const NarrowFields<D>& fields,
+                                    const CandidateBuffer<D>& candidates, Index begin, Index end) {
     using T = PairLanes<float>;
     using PointSums = typename PlainPass<D>::template Sums<double>;
     constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double);
-    const auto fields = pass.own_fields();
     for (Index i = begin; i < end; ++i) {
         std::array<T, D> x_i;
         for (int k = 0; k < D; ++k) x_i[k] = T(pass.fluid.x[k][i] - candidates.origin(k));
@@ -188,12 +203,11 @@ HWY_NOINLINE void sum_cell_buffered(const PlainPass<D>& pass, const CandidateBuf
 
 // One candidate after the other against vectors of particles.
 template <int D>
-HWY_NOINLINE void sum_cell_broadcast(const PlainPass<D>& pass, const CandidateBuffer<D>& candidates, Index begin,
-                                     Index end) {
+HWY_NOINLINE void sum_cell_broadcast(const PlainPass<D>& pass, const NarrowFields<D>& fields,
+                                     const CandidateBuffer<D>& candidates, Index begin, Index end) {
     using T = PairLanes<float>;
     using PointSums = typename PlainPass<D>::template Sums<double>;
     constexpr std::size_t kSums = sizeof(PointSums) / sizeof(double), N = T::kCount;
-    const auto fields = pass.own_fields();
     for (Index first = begin; first < end; first += N) {
         const std::size_t points = std::min<std::size_t>(N, end - first);
         alignas(64) float own[2 * D + 1][N] = {};  // those beyond the last point are not stored
@@ -240,16 +254,17 @@ class CellSums final : public PlainSums {
         ++sorts_;
         seconds.sort += clock.lap();
         const PlainPass<D> pass(fluid);
+        fill_narrow<D>(pass, fluid.size(), fields_);
         buffers_.resize(static_cast<std::size_t>(solver::max_threads()));
         solver::parallel_for(grid_.cells(), 8, [&](std::size_t first, std::size_t last, int thread) {
             CandidateBuffer<D>& buffer = buffers_[static_cast<std::size_t>(thread)];
             for (std::size_t c = first; c < last; ++c) {
                 const solver::Run cell = grid_.cell(c);
-                buffer.fill(fluid, grid_, c);
+                buffer.fill(fluid, fields_, grid_, c);
                 if constexpr (IsBroadcast) {
-                    sum_cell_broadcast<D>(pass, buffer, cell.begin, cell.end);
+                    sum_cell_broadcast<D>(pass, fields_, buffer, cell.begin, cell.end);
                 } else {
-                    sum_cell_buffered<D>(pass, buffer, cell.begin, cell.end);
+                    sum_cell_buffered<D>(pass, fields_, buffer, cell.begin, cell.end);
                 }
             }
         });
@@ -269,6 +284,7 @@ class CellSums final : public PlainSums {
 
   private:
     solver::CellGrid grid_;
+    NarrowFields<D> fields_;
     std::vector<CandidateBuffer<D>> buffers_;  // one per thread
     long sorts_{};
 };

@@ -28,6 +28,12 @@ double centre_of(std::int32_t cube, double step) {
     return (cube + 0.5) * step;
 }
 
+// The sum of two displacements, moved outwards by what rounding may take.
+float add_outwards(float a, float b, float sign) {
+    const float sum = a + b;
+    return sum + sign * std::numeric_limits<float>::epsilon() * std::abs(sum);
+}
+
 struct Range {
     double low{}, high{};
 
@@ -53,11 +59,9 @@ void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size
     step_ = std::exp2(std::ceil(std::log2(0.25 * support)));
     stride_ = static_cast<std::size_t>(dimensions + 1) * kClusterSize;
     records_.resize(clusters() * stride_);
-    reference_.resize(clusters());
-    start_.resize(moves ? clusters() * static_cast<std::size_t>(dimensions) * kClusterSize : 0);
+    moves_ = moves;
     motion_.assign((clusters() + kBlockClusters - 1) / kBlockClusters, MotionBox{});
-    settled_.assign(motion_.size(), MotionBox{});
-    total_ = settled_;
+    total_ = motion_;
     boxes_.resize(motion_.size());
     other_reference_.resize(motion_.size());
     choose_references(x, support);
@@ -66,6 +70,7 @@ void ClusterPoints<S>::start(const VectorField& x, const FieldView& V, std::size
 
 template <class S>
 void ClusterPoints<S>::choose_references(const VectorField& x, double support) {
+    std::vector<std::array<std::int32_t, 3>> of_clusters(clusters());
     parallel_for(clusters(), kBlockClusters, [&](std::size_t first, std::size_t last, int) {
         std::array<std::int32_t, 3> reference{};
         for (int k = 0; k < dimensions_; ++k) {
@@ -82,11 +87,18 @@ void ClusterPoints<S>::choose_references(const VectorField& x, double support) {
                 is_near &= std::max(of_cluster[k].high - centre, centre - of_cluster[k].low) < kFarthest * support;
             }
             for (int k = 0; k < dimensions_ && !is_near; ++k) reference[k] = cube_of(of_cluster[k].middle(), step_);
-            reference_[c] = reference;
+            of_clusters[c] = reference;
             if (!is_near) others |= 1u << (c - first);
         }
         other_reference_[first / kBlockClusters] = static_cast<std::uint16_t>(others);
     });
+    references_.clear();
+    first_reference_.resize(other_reference_.size());
+    for (std::size_t b = 0; b < first_reference_.size(); ++b) {
+        first_reference_[b] = static_cast<Index>(references_.size());
+        for (unsigned chosen = other_reference_[b] | 1u; chosen != 0; chosen &= chosen - 1)
+            references_.push_back(of_clusters[b * kBlockClusters + static_cast<std::size_t>(std::countr_zero(chosen))]);
+    }
 }
 
 template <class S>
@@ -96,15 +108,6 @@ void ClusterPoints<S>::update(const VectorField& x, const FieldView& V) {
 
 template <class S>
 void ClusterPoints<S>::settle() {
-    if (start_.size() == 0) return;
-    const std::size_t places = static_cast<std::size_t>(dimensions_) * kClusterSize;
-    parallel_for(clusters(), kBlockClusters, [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t c = first; c < last; ++c) {
-            for (std::size_t l = 0; l < places; ++l)
-                start_[c * places + l] = static_cast<float>(records_[c * stride_ + l]);
-        }
-    });
-    settled_ = total_;
     motion_.assign(motion_.size(), MotionBox{});
 }
 
@@ -122,12 +125,6 @@ void ClusterPoints<S>::pack(const VectorField& x, const FieldView& V) {
             for (std::size_t l = 0; l < kClusterSize; ++l)
                 record[l] = static_cast<S>(volumes[(c - first) * kClusterSize + l]);
         }
-        if constexpr (!IsStart) {
-            for (int k = 0; k < 3; ++k) {
-                total_[block].low[k] = settled_[block].low[k] + motion_[block].low[k];
-                total_[block].high[k] = settled_[block].high[k] + motion_[block].high[k];
-            }
-        }
     });
 }
 
@@ -136,16 +133,19 @@ template <class S>
 template <bool IsStart>
 void ClusterPoints<S>::pack_axis(const std::vector<double>& x, int axis, std::size_t first, std::size_t last) {
     using FourFloats = Lanes<float, kClusterSize>::Vector;
-    const auto k = static_cast<std::size_t>(axis), dimensions = static_cast<std::size_t>(dimensions_);
+    const auto k = static_cast<std::size_t>(axis);
     const std::size_t block = first / kBlockClusters;
     // Of the displacements of the first points of clusters, the second ones, ...
     [[maybe_unused]] FourFloats low, high;
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     low = FourFloats{} + kInfinity;
     high = -low;
-    for (std::size_t c = first; c < last; ++c) {
+    const std::array<std::int32_t, 3>* reference = &references_[first_reference_[block]];
+    unsigned others = other_reference_[block] & ~1u;
+    for (std::size_t c = first; c < last; ++c, others >>= 1) {
         const std::size_t begin = c * kClusterSize, in_cluster = std::min(kClusterSize, count_ - begin);
-        const double centre = centre_of(reference_[c][k], step_);
+        reference += others & 1u;
+        const double centre = centre_of((*reference)[k], step_);
         const double* places = x.data() + begin;
         std::array<double, kClusterSize> padded;
         if (in_cluster < kClusterSize) {
@@ -154,26 +154,26 @@ void ClusterPoints<S>::pack_axis(const std::vector<double>& x, int axis, std::si
             places = padded.data();
         }
         S* const record = &records_[c * stride_ + k * kClusterSize];
-        for (std::size_t l = 0; l < kClusterSize; ++l) record[l] = static_cast<S>(places[l] - centre);
-        std::array<float, kClusterSize> numbers;
-        for (std::size_t l = 0; l < kClusterSize; ++l) numbers[l] = static_cast<float>(places[l] - centre);
-        FourFloats place;
-        __builtin_memcpy(&place, numbers.data(), sizeof place);
+        std::array<S, kClusterSize> now;
+        for (std::size_t l = 0; l < kClusterSize; ++l) now[l] = static_cast<S>(places[l] - centre);
         if constexpr (IsStart) {
             const Range range = range_of(x, begin, begin + in_cluster);
             boxes_[block].set(axis, c - first, range.low - centre, range.high - centre);
-            if (start_.size() > 0) __builtin_memcpy(&start_[(c * dimensions + k) * kClusterSize], &place, sizeof place);
         } else {
             FourFloats moved;
-            __builtin_memcpy(&moved, &start_[(c * dimensions + k) * kClusterSize], sizeof moved);
-            moved = place - moved;
+            for (std::size_t l = 0; l < kClusterSize; ++l) moved[l] = static_cast<float>(now[l] - record[l]);
             low = moved < low ? moved : low;
             high = moved > high ? moved : high;
         }
+        std::copy_n(now.data(), kClusterSize, record);
     }
     if constexpr (!IsStart) {
-        motion_[block].low[k] = std::min(std::min(low[0], low[1]), std::min(low[2], low[3]));
-        motion_[block].high[k] = std::max(std::max(high[0], high[1]), std::max(high[2], high[3]));
+        const float from = std::min(std::min(low[0], low[1]), std::min(low[2], low[3])),
+                    to = std::max(std::max(high[0], high[1]), std::max(high[2], high[3]));
+        for (MotionBox* box : {&motion_[block], &total_[block]}) {
+            box->low[k] = add_outwards(box->low[k], from, -1.0f);
+            box->high[k] = add_outwards(box->high[k], to, 1.0f);
+        }
     }
 }
 

@@ -50,7 +50,7 @@ class ClusterPoints {
     // The points have got a new order: chooses reference points. moves: will there be an update()?
     void start(const VectorField& x, const FieldView& V, std::size_t count, int dimensions, double support,
                bool moves = true);
-    // They have moved, or their volumes have changed. Finds their displacement since start() or settle(). [m], [m^3]
+    // They have moved, or their volumes have changed. [m], [m^3]
     void update(const VectorField& x, const FieldView& V);
 
     std::size_t size() const { return count_; }
@@ -61,7 +61,12 @@ class ClusterPoints {
     // reach.
     const S* record(std::size_t cluster) const { return &records_[cluster * stride_]; }
 
-    const std::array<std::int32_t, 3>& reference(std::size_t cluster) const { return reference_[cluster]; }
+    const std::array<std::int32_t, 3>& reference(std::size_t cluster) const {
+        const std::size_t block = cluster / kBlockClusters, place = cluster % kBlockClusters;
+        const unsigned up_to_here = (2u << place) - 2u;  // but for cluster 0
+        return references_[first_reference_[block] +
+                           static_cast<Index>(std::popcount(other_reference_[block] & up_to_here))];
+    }
     double reference_step() const { return step_; }  // [m]
     // The first cluster behind this one that has another reference point or is in another block.
     std::size_t end_of_reference(std::size_t cluster) const {
@@ -70,17 +75,19 @@ class ClusterPoints {
         const std::size_t end = later == 0 ? kBlockClusters - place : std::size_t(std::countr_zero(later)) + 1;
         return std::min(cluster + end, clusters());
     }
-    // When the order was new, each relative to the cluster's reference point.
+    // When the order was new, each relative to the cluster's reference point; until forget_boxes().
     const BlockBoxes& boxes(std::size_t block) const { return boxes_[block]; }
+    void forget_boxes() { std::vector<BlockBoxes>().swap(boxes_); }
 
     // Displacement counts anew from the places of now.
     void settle();
 
-    // Per block of clusters, bounds since start() or settle().
+    // Per block of clusters, bounds of the displacement since start() or settle(), and since start(): sums of those
+    // from one update() to the next. So no place of before has to be kept, and they are as good as exact where the
+    // points of a block keep their velocities for as long as a list lives.
     const std::vector<MotionBox>& motion() const { return motion_; }
-    // Since start(): bounds, the sum of those between one settle() and the next.
     const std::vector<MotionBox>& total_motion() const { return total_; }
-    bool moves() const { return start_.size() > 0; }  // if not, all motion is 0
+    bool moves() const { return moves_; }  // if not, all motion is 0
 
   private:
     void choose_references(const VectorField& x, double support);
@@ -94,11 +101,12 @@ class ClusterPoints {
     double step_{};
     std::size_t stride_{};
     AlignedArray<S> records_;
-    std::vector<std::array<std::int32_t, 3>> reference_;
+    std::vector<std::array<std::int32_t, 3>> references_;  // those of each block
+    std::vector<Index> first_reference_;                   // per block: that of its cluster 0
     std::vector<std::uint16_t> other_reference_;  // per block, bit c: cluster c has another one than the one before
     std::vector<BlockBoxes> boxes_;
-    AlignedArray<float> start_;  // [clusters][D][4] relative places that motion_ counts from; empty where none moves
-    std::vector<MotionBox> motion_, settled_, total_;
+    bool moves_{};
+    std::vector<MotionBox> motion_, total_;
 };
 
 extern template class ClusterPoints<float>;

@@ -10,7 +10,7 @@ namespace headrace::solver {
 
 class FieldView {
   public:
-    enum class Kind { zero, wide, narrow, product, quotient, scaled };
+    enum class Kind { zero, wide, narrow, product, quotient, scaled, extrapolated };
 
     FieldView() = default;                                                      // 0 everywhere
     FieldView(const double* values) : kind_(Kind::wide), wide_(values) {}       // NOLINT: values
@@ -26,6 +26,15 @@ class FieldView {
         FieldView view(a);
         view.kind_ = Kind::quotient;
         view.divisor_ = b.data();
+        return view;
+    }
+
+    // values + dt rates
+    static FieldView extrapolated(const std::vector<double>& values, double dt, const std::vector<float>& rates) {
+        FieldView view(values);
+        view.kind_ = Kind::extrapolated;
+        view.narrow_ = rates.data();
+        view.factor_ = dt;
         return view;
     }
 
@@ -52,6 +61,9 @@ class FieldView {
             case Kind::scaled:
                 return write(begin, count, to,
                              [this](std::size_t i) { return factor_ * static_cast<double>(narrow_[i]); });
+            case Kind::extrapolated:
+                return write(begin, count, to,
+                             [this](std::size_t i) { return wide_[i] + factor_ * static_cast<double>(narrow_[i]); });
         }
     }
     double operator[](std::size_t i) const {

@@ -85,6 +85,8 @@ class PackedFields {
                 return write([&](std::size_t i) { return wide[i] / divisor[i]; });
             case FieldView::Kind::scaled:
                 return write([&](std::size_t i) { return factor * static_cast<double>(narrow[i]); });
+            case FieldView::Kind::extrapolated:
+                return write([&](std::size_t i) { return wide[i] + factor * static_cast<double>(narrow[i]); });
         }
     }
 

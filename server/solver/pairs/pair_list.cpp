@@ -100,6 +100,10 @@ void PairList<S>::build(const ClusterPoints<S>& centres, const VectorField& x, c
     far_skin_ = options.far_skins * options.skin;
     can_mend_ = &centres == &neighbours && !grid.is_periodic() && options.visibility == nullptr && !options.is_half;
     const std::size_t count = (centres.clusters() + kBlockClusters - 1) / kBlockClusters;
+    // Given back first: lists that grow one by one leave holes, and the memory of the longest that ever was.
+    parallel_for(blocks_.size(), 4, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t b = first; b < last; ++b) blocks_[b] = {};
+    });
     blocks_.resize(count);
     scratch_.resize(static_cast<std::size_t>(max_threads()));
     const double reach = (options.support + options.skin) * (1.0 + kRounding);

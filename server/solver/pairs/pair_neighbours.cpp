@@ -18,6 +18,7 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     among_fluid_.build(fluid_, *input.fluid.x, fluid_, input.fluid.order->blocks(), reach);
     if (input.walls.count == 0) {
         walls_ = {};
+        fluid_.forget_boxes();
         prune();
         return;
     }
@@ -25,6 +26,7 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     reach.visibility = input.fluid_to_wall;
     if (input.wall_skin > 0.0) reach.skin = input.wall_skin;
     fluid_to_wall_.build(fluid_, *input.fluid.x, walls_, input.walls.order->blocks(), reach);
+    fluid_.forget_boxes();
     wall_to_fluid_.build_transposed(fluid_to_wall_, walls_.clusters());
     if (input.wall_to_fluid != nullptr) wall_to_fluid_.refresh(*input.wall_to_fluid, walls_.size(), fluid_.size());
     prune();

@@ -15,13 +15,15 @@ const std::vector<float> kNarrow{0.1F, 5.0F, -0.25F, 1e-30F};
 }  // namespace
 
 TEST_CASE("FieldView.MakesInDoublePrecisionWhatIsNotStored") {
-    const FieldView product(kWide, kNarrow), quotient = FieldView::quotient(kWide, kDivisor), scaled(1e-40, kNarrow);
+    const FieldView product(kWide, kNarrow), quotient = FieldView::quotient(kWide, kDivisor), scaled(1e-40, kNarrow),
+                                             extrapolated = FieldView::extrapolated(kWide, 0.3, kNarrow);
     for (std::size_t i = 0; i < kWide.size(); ++i) {
         CHECK(FieldView(kWide)[i] == kWide[i]);
         CHECK(FieldView(kNarrow)[i] == static_cast<double>(kNarrow[i]));
         CHECK(product[i] == kWide[i] * static_cast<double>(kNarrow[i]));
         CHECK(quotient[i] == kWide[i] / kDivisor[i]);
         CHECK(scaled[i] == 1e-40 * static_cast<double>(kNarrow[i]));
+        CHECK(extrapolated[i] == kWide[i] + 0.3 * static_cast<double>(kNarrow[i]));
         CHECK(FieldView()[i] == 0.0);
     }
 }
