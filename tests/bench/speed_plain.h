@@ -35,7 +35,7 @@ struct PlainFluid {
     std::vector<float> V, delta_rate;  // [m^3] (2D: m^2), [1/s]
 
     std::size_t size() const { return id.size(); }
-    // At the time of x: nothing that is stored.
+    // At the time of x, which needs no array; from the rates of before until compute() has found new ones.
     solver::FieldView v(int axis) const { return solver::FieldView::extrapolated(v_half[axis], 0.5 * dt, a[axis]); }
     solver::FieldView delta() const { return solver::FieldView::extrapolated(delta_half, 0.5 * dt, delta_rate); }
     double rho(solver::Index i) const {  // over rho0
