@@ -129,7 +129,8 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     NearQuery<S> query;
     query.dimensions = centres.dimensions();
     query.records = neighbours.record(0);
-    query.reach = (options.support + options.skin) * (1.0 + kRounding);
+    query.inner_reach = (support_ + inner_skin_) * (1.0 + kRounding);
+    query.reach = (support_ + skin_) * (1.0 + kRounding);
     bool needs_visibility = false;
     block.rows.fill({});
     for (std::size_t c = first; c < last && !block.nearby.empty();) {
@@ -139,7 +140,9 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
         query.sights = near.sights().data();
         query.way_count = near.sights().size();
         scratch.maybe.resize(std::max(scratch.maybe.size(), space_for_near(query.way_count)));
+        scratch.far.resize(std::max(scratch.far.size(), space_for_near(query.way_count)));
         query.maybe = scratch.maybe.data();
+        query.far = scratch.far.data();
         for (; c < end; ++c) {
             const std::size_t space = scratch.used + space_for_near(query.way_count);
             if (scratch.entries.size() < space) scratch.entries.resize(2 * space);
@@ -149,8 +152,9 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
             if (options.is_half) query.skipped = c % kBlockClusters;
             PairRow& row = block.rows[c - first];
             row.begin = static_cast<Index>(scratch.used);
-            scratch.used += list_near(query, &scratch.entries[scratch.used]);
-            row.end = static_cast<Index>(scratch.used);
+            const ListedEntries listed = list_near(query, &scratch.entries[scratch.used]);
+            row.end = row.begin + static_cast<Index>(listed.near);
+            scratch.used += listed.count;
             row.ways = static_cast<Index>(first_way);
             if (options.visibility != nullptr) {
                 Vec3 place{};
@@ -162,6 +166,7 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     for (std::size_t c = last - first; c <= kBlockClusters; ++c)
         block.rows[c].begin = block.rows[c].end = static_cast<Index>(scratch.used);
     scratch.finish_block(block, needs_visibility);
+    block.is_whole = inner_skin_ >= skin_;
 }
 
 template <class S>

@@ -84,15 +84,14 @@ enum class Coverage {
 template <class S>
 class PairList {
   public:
-    // x: of the centres, in their order; grid: of the neighbours.
+    // x: of the centres, in their order; grid: of the neighbours. Pruned for the places of now.
     void build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
                const BlockGrid& grid, const ReachOptions& options);
 
-    // Chooses the entries that the loops see, for the places of now; both have just been settled. Until then, after
-    // build(), they see all.
+    // Chooses the entries that the loops see, for the places of now; both have just been settled.
     void prune(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours);
 
-    // The same pairs with centres and neighbours exchanged.
+    // The same pairs with centres and neighbours exchanged; the loops see all until prune().
     void build_transposed(const PairList& list, std::size_t centre_clusters);
 
     // Gives blocks their entries back whose pruned ones may be needed, and mends those that outrun the skin.

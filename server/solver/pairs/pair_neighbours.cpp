@@ -19,7 +19,6 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     if (input.walls.count == 0) {
         walls_ = {};
         fluid_.forget_boxes();
-        prune();
         return;
     }
     if (input.has_new_walls) start(walls_, input.walls, input.walls_move);
@@ -29,7 +28,8 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
     fluid_.forget_boxes();
     wall_to_fluid_.build_transposed(fluid_to_wall_, walls_.clusters());
     if (input.wall_to_fluid != nullptr) wall_to_fluid_.refresh(*input.wall_to_fluid, walls_.size(), fluid_.size());
-    prune();
+    walls_.settle();
+    wall_to_fluid_.prune(walls_, fluid_);
 }
 
 // For the places of now.

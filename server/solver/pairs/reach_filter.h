@@ -45,20 +45,26 @@ struct NearQuery {
     const PairWay<S>* ways{};
     const WaySight* sights{};  // of each way
     std::size_t way_count{};
-    std::size_t skipped{};  // so many clusters of the first way's block are left out
-    const S* records{};     // of the neighbours' clusters
-    double reach{};         // [m]
-    Index* maybe{};         // scratch for space_for_near(way_count) numbers
+    std::size_t skipped{};          // so many clusters of the first way's block are left out
+    const S* records{};             // of the neighbours' clusters
+    double inner_reach{}, reach{};  // [m]
+    Index* maybe{};                 // scratch, as the following for space_for_near(way_count) of them
+    PairEntry* far{};
+};
+
+struct ListedEntries {
+    std::size_t near{};  // within the inner reach: those that come first
+    std::size_t count{};
 };
 
 inline constexpr std::size_t space_for_near(std::size_t ways) {
     return (ways + 1) * kBlockClusters;
 }
 
-// Writes the entries of the clusters that have a point within reach of one of the centre's, way by way; returns how
-// many. found: with space for space_for_near(way_count).
-std::size_t list_near(const NearQuery<float>& query, PairEntry* found);
-std::size_t list_near(const NearQuery<double>& query, PairEntry* found);
+// Writes the entries of the clusters that have a point within the inner reach of one of the centre's, way by way, then
+// those within reach. found: with space for space_for_near(way_count).
+ListedEntries list_near(const NearQuery<float>& query, PairEntry* found);
+ListedEntries list_near(const NearQuery<double>& query, PairEntry* found);
 
 // The row of one centre's cluster.
 template <class S>
