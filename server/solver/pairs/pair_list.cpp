@@ -166,7 +166,7 @@ void PairList<S>::build_block(std::size_t b, const ClusterPoints<S>& centres, co
     for (std::size_t c = last - first; c <= kBlockClusters; ++c)
         block.rows[c].begin = block.rows[c].end = static_cast<Index>(scratch.used);
     scratch.finish_block(block, needs_visibility);
-    block.is_whole = inner_skin_ >= skin_;
+    block.is_whole = inner_skin_ >= skin_;  // otherwise pruned
 }
 
 template <class S>

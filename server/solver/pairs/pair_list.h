@@ -84,11 +84,12 @@ enum class Coverage {
 template <class S>
 class PairList {
   public:
-    // x: of the centres, in their order; grid: of the neighbours. Pruned for the places of now.
+    // x: of the centres, in their order; grid: of the neighbours. Pruned for the places of now, from which both points'
+    // motion must count.
     void build(const ClusterPoints<S>& centres, const VectorField& x, const ClusterPoints<S>& neighbours,
                const BlockGrid& grid, const ReachOptions& options);
 
-    // Chooses the entries that the loops see, for the places of now; both have just been settled.
+    // Chooses the entries that the loops see, for the places of now, from which both points' motion must count.
     void prune(const ClusterPoints<S>& centres, const ClusterPoints<S>& neighbours);
 
     // The same pairs with centres and neighbours exchanged; the loops see all until prune().

@@ -22,13 +22,13 @@ void PairNeighboursOf<S>::find(const NeighbourInput& input) {
         return;
     }
     if (input.has_new_walls) start(walls_, input.walls, input.walls_move);
+    walls_.settle();
     reach.visibility = input.fluid_to_wall;
     if (input.wall_skin > 0.0) reach.skin = input.wall_skin;
     fluid_to_wall_.build(fluid_, *input.fluid.x, walls_, input.walls.order->blocks(), reach);
     fluid_.forget_boxes();
     wall_to_fluid_.build_transposed(fluid_to_wall_, walls_.clusters());
     if (input.wall_to_fluid != nullptr) wall_to_fluid_.refresh(*input.wall_to_fluid, walls_.size(), fluid_.size());
-    walls_.settle();
     wall_to_fluid_.prune(walls_, fluid_);
 }
 

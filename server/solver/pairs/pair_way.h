@@ -48,7 +48,7 @@ Index number_of_way(std::vector<PairWay<S>>& ways, std::size_t first, const Pair
 }
 
 // The entries of a centre's cluster: [begin, that of the next row). Those from `end` on were out of the inner reach
-// when the list was last pruned.
+// when the list was made or last pruned.
 struct PairRow {
     Index begin{}, end{};
     Index ways{};  // what its entries call way 0

@@ -110,24 +110,24 @@ std::size_t ways_within(const WayQuery& query, Index* kept) {
 // Writes first + k for each lane k of the mask, ascending; returns how many. There must be space for all lanes.
 template <class D32, class Mask>
 HWY_INLINE std::size_t store_numbers(D32 d, Mask mask, Index first, Index* numbers) {
-#if HWY_TARGET == HWY_AVX3
-    // Iota is put together number by number. Compressing into memory is slow on some machines.
-    alignas(64) static constexpr std::array<Index, 16> kLanes{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    const hn::RebindToUnsigned<D32> du;
-    const auto all = hn::Add(hn::Load(du, kLanes.data()), hn::Set(du, first));
-    hn::StoreU(hn::Compress(all, hn::RebindMask(du, mask)), du, numbers);
-    return hn::CountTrue(d, mask);
-#else
-    // Compress copies a table of a KiB each time.
-    std::array<std::uint8_t, 8> bits{};
-    hn::StoreMaskBits(d, mask, bits.data());
-    std::size_t count = 0;
-    for (Index k = 0; k < hn::Lanes(d); ++k) {
-        numbers[count] = first + k;
-        count += bits[0] >> k & 1u;
+    if constexpr (hn::MaxLanes(d) > 8) {
+        // Iota is put together number by number. Compressing into memory is slow on some machines.
+        alignas(64) static constexpr std::array<Index, 16> kLanes{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+        const hn::RebindToUnsigned<D32> du;
+        const auto all = hn::Add(hn::Load(du, kLanes.data()), hn::Set(du, first));
+        hn::StoreU(hn::Compress(all, hn::RebindMask(du, mask)), du, numbers);
+        return hn::CountTrue(d, mask);
+    } else {
+        // Compress looks its permutation up; in AVX2 it copies the table of 1 KiB each time.
+        std::array<std::uint8_t, 8> bits{};
+        hn::StoreMaskBits(d, mask, bits.data());
+        std::size_t count = 0;
+        for (Index k = 0; k < hn::Lanes(d); ++k) {
+            numbers[count] = first + k;
+            count += bits[0] >> k & 1u;
+        }
+        return count;
     }
-    return count;
-#endif
 }
 
 // Writes the numbers of the clusters whose boxes are within reach; returns how many.
@@ -135,7 +135,7 @@ template <class S, int D>
 std::size_t boxes_within(const NearQuery<S>& query, Index* maybe) {
     const auto d = BoxLanes<D>::d;
     const auto reach2 = BoxLanes<D>::square_of(query.reach);
-    const ClusterBox centre = query.box;  // which what is written cannot change
+    const ClusterBox centre = query.box;  // a copy, which no store can change: it stays in registers
     std::size_t count = 0;
     Index number = 0;
     for (std::size_t w = 0; w < query.way_count; ++w) {

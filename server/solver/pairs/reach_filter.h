@@ -48,8 +48,8 @@ struct NearQuery {
     std::size_t skipped{};          // so many clusters of the first way's block are left out
     const S* records{};             // of the neighbours' clusters
     double inner_reach{}, reach{};  // [m]
-    Index* maybe{};                 // scratch, as the following for space_for_near(way_count) of them
-    PairEntry* far{};
+    Index* maybe{};                 // scratch for space_for_near(way_count) numbers
+    PairEntry* far{};               // scratch for as many entries
 };
 
 struct ListedEntries {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "points.h"
+#include "server/solver/pairs/instruction_sets.h"
 
 using namespace headrace::solver;
 using namespace headrace::solver::testing;
@@ -157,6 +158,33 @@ TEST_CASE("PairList.PruningKeepsEveryPairWithinTheSupportAndTheInnerSkin") {
     all.find(in);
     check_complete(pruned, points, kSupport + kInnerSkin);
     CHECK(pruned.neighbours_per_particle() < all.neighbours_per_particle());
+}
+
+TEST_CASE("PairList.IsMadeAsPruningItForTheSamePlacesLeavesIt") {
+    const int dimensions = GENERATE(2, 3);
+    const std::string kind = GENERATE("body", "periods", "spray");
+    const bool is_half = GENERATE(false, true);
+    const std::string set = GENERATE(from_range(instruction_sets()));
+    INFO(kind << " in " << set);
+    const OnlyInstructionSet only(set);
+    const Points points = make_body(kind, dimensions);
+    PairNeighboursOf<float> neighbours;
+    NeighbourInput in = input_of(points);
+    in.reach.is_half = is_half;
+    neighbours.find(in);
+    const PairList<float>& made = neighbours.among_fluid();
+    PairList<float> pruned = made;
+    pruned.bring_back();
+    REQUIRE(!pruned.is_pruned());
+    REQUIRE(pruned.entries() > made.entries());
+    pruned.prune(neighbours.fluid(), neighbours.fluid());
+    CHECK(made.is_pruned());
+    REQUIRE(pruned.blocks().size() == made.blocks().size());
+    for (std::size_t b = 0; b < made.blocks().size(); ++b) {
+        const PairBlock<float>&one = made.blocks()[b], &other = pruned.blocks()[b];
+        CHECK(one.entries == other.entries);
+        for (std::size_t c = 0; c < kBlockClusters; ++c) CHECK(one.rows[c].end == other.rows[c].end);
+    }
 }
 
 TEST_CASE("PairList.HasThePairsOfMoreClustersThanAnEntryHasNumbersFor") {
