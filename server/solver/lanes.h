@@ -88,7 +88,7 @@ struct ScalarOf<Lanes<S, N>> {
     using type = S;
 };
 
-// The smallest normal number: keeps 0/0 out of a quotient whose numerator is 0 too.
+// The smallest normal number.
 template <class T>
 HEADRACE_ALWAYS_INLINE T tiny() {
     return T(static_cast<double>(std::numeric_limits<typename ScalarOf<T>::type>::min()));

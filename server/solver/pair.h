@@ -14,7 +14,7 @@ using VectorOf = std::array<T, D>;
 template <int D, class T>
 struct Pair {
     VectorOf<D, T> x_ij;  // [m] x_i - x_j
-    T r2;                 // [m^2]
+    T r2;                 // [m^2] squared_distance(x_ij)
     T r;                  // [m]
     T V_j;                // [m^3] (2D: m^2); 0 where the pair does not interact
 };
@@ -30,6 +30,14 @@ template <int D, class T>
 HEADRACE_ALWAYS_INLINE T dot(const VectorOf<D, T>& a, const VectorOf<D, T>& b) {
     T sum = a[0] * b[0];
     for (int k = 1; k < D; ++k) sum += a[k] * b[k];
+    return sum;
+}
+
+// Never 0: what is divided by it vanishes with x_ij, and the quotient where a point meets itself is 0.
+template <int D, class T>
+HEADRACE_ALWAYS_INLINE T squared_distance(const VectorOf<D, T>& x_ij) {
+    T sum = tiny<T>() + x_ij[0] * x_ij[0];
+    for (int k = 1; k < D; ++k) sum += x_ij[k] * x_ij[k];
     return sum;
 }
 

@@ -34,7 +34,13 @@ class WendlandC2 {
     template <class T>
     HEADRACE_ALWAYS_INLINE T F(const T& r) const {
         const T u = positive_or_zero(1.0 - r * inv_R_);
-        return slope_ * u * u * u;
+        return (slope_ * u) * (u * u);
+    }
+    // V_i V_j F(r). What does not depend on r or j is multiplied first: loops do that once.
+    template <class T>
+    HEADRACE_ALWAYS_INLINE T F(const T& r, const T& V_i, const T& V_j) const {
+        const T u = positive_or_zero(1.0 - r * inv_R_);
+        return (slope_ * V_i * V_j * u) * (u * u);
     }
     template <class T>
     HEADRACE_ALWAYS_INLINE T dF_dr(const T& r) const {
@@ -86,7 +92,7 @@ class AnyKernel {
         switch (kind_) {
             case KernelKind::wendland_c2: {
                 const T u = positive_or_zero(1.0 - s);
-                return slope_ * u * u * u;
+                return (slope_ * u) * (u * u);
             }
             case KernelKind::wendland_c4: {
                 const T u = positive_or_zero(1.0 - s), u2 = u * u;

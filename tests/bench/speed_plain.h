@@ -111,16 +111,14 @@ struct PlainPass {
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self& self, const solver::Pair<D, T>& pair, const Neighbour& neighbour,
                                      Sums<T>& sums) const {
-        add<T>(terms_of<T>(self, pair, neighbour), sums);
+        add<T>(terms_of<T>(self, pair, pair.V_j * kernel.F(pair.r), neighbour), sums);
     }
 
     // Weighted by both volumes a pair's terms are the same for both points, but for signs.
     template <class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE Change<T> exchange(const Self& self, const solver::Pair<D, T>& pair, const T& V_i,
                                               const Neighbour& neighbour, Sums<T>& sums) const {
-        solver::Pair<D, T> weighted = pair;
-        weighted.V_j = V_i * pair.V_j;
-        const Sums<T> terms = terms_of<T>(self, weighted, neighbour);
+        const Sums<T> terms = terms_of<T>(self, pair, kernel.F(pair.r, V_i, pair.V_j), neighbour);
         add<T>(terms, sums);
         return change_of<T>(terms.push, diffusion * terms.diffusion + (1.0 + neighbour(D)) * terms.divergence);
     }
@@ -138,22 +136,20 @@ struct PlainPass {
     }
 
   private:
+    // V_F: V_j F, or V_i V_j F.
     template <class T, class Self, class Neighbour>
-    HEADRACE_ALWAYS_INLINE Sums<T> terms_of(const Self& self, const solver::Pair<D, T>& pair,
+    HEADRACE_ALWAYS_INLINE Sums<T> terms_of(const Self& self, const solver::Pair<D, T>& pair, const T& V_F,
                                             const Neighbour& neighbour) const {
         std::array<T, D> v_ij;
         for (int k = 0; k < D; ++k) v_ij[k] = self(k) - neighbour(k);
-        const T F = kernel.F(pair.r);
         Sums<T> terms;
-        terms.divergence = solver::velocity_divergence<D, T>(pair.V_j, F, pair.x_ij, v_ij);
-        terms.diffusion = solver::plain_diffusion<D, T>(pair, F, neighbour(D) - self(D), T(0.0));
+        terms.divergence = solver::velocity_divergence<D, T>(V_F, pair.x_ij, v_ij);
+        terms.diffusion = solver::plain_diffusion<T>(V_F, self(D) - neighbour(D), T(0.0));
         // With the linear state equation p_i + p_j = rho0 c0^2 (delta_i + delta_j). Artificial viscosity adds to it:
         // one factor of x_ij for both.
         const T approach = solver::approach_rate<D, T>(pair, solver::dot<D, T>(v_ij, pair.x_ij));
-        solver::PressureSums<D, T> pressure;
-        solver::accumulate_difference<D, T>(solver::scaled<D, T>(pair.V_j * F, pair.x_ij),
-                                            self(D) + neighbour(D) - viscosity * approach, pressure);
-        terms.push = pressure.pB_grad;
+        const T p = self(D) + neighbour(D) - viscosity * approach;
+        terms.push = solver::scaled<D, T>(V_F * p, pair.x_ij);
         return terms;
     }
 

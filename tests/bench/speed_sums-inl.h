@@ -158,7 +158,7 @@ class CandidateBuffer {
 
 template <int D, class T>
 HWY_INLINE void set_distance(solver::Pair<D, T>& pair) {
-    pair.r2 = solver::dot<D, T>(pair.x_ij, pair.x_ij);
+    pair.r2 = solver::squared_distance<D, T>(pair.x_ij);
     pair.r = solver::HWY_NAMESPACE::square_root<float>(pair.r2);
 }
 

@@ -14,18 +14,17 @@
 
 namespace headrace::solver {
 
-// pi_ij: finite at r = 0, where the approach v_ij . x_ij vanishes with r^2.
+// pi_ij: 0 at r = 0, where the approach v_ij . x_ij vanishes and r2 does not.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T approach_rate(const Pair<D, T>& pair, const T& approach) {
-    return approach / (pair.r2 + tiny<T>());
+    return approach / pair.r2;
 }
 
-// sum_of_strains = S_i + S_j; Monaghan's form: 0.
+// mean_strain = S_ij; Monaghan's form: 0.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T approach_rate(const Pair<D, T>& pair, const VectorOf<D, T>& v_ij,
-                                       const Symmetric<D, T>& sum_of_strains) {
-    return approach_rate<D, T>(pair,
-                               dot<D, T>(v_ij, pair.x_ij) - 0.5 * dot<D, T>(pair.x_ij, sum_of_strains * pair.x_ij));
+                                       const Symmetric<D, T>& mean_strain) {
+    return approach_rate<D, T>(pair, dot<D, T>(v_ij, pair.x_ij) - dot<D, T>(pair.x_ij, mean_strain * pair.x_ij));
 }
 
 }  // namespace headrace::solver

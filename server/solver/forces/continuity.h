@@ -10,11 +10,11 @@
 
 namespace headrace::solver {
 
-// V_j (v_j - v_i) . B_i grad W: corrected is B_i x_ij, F the gradient factor.
+// V_j (v_j - v_i) . B_i grad W. V_F = V_j F, F the gradient factor; corrected is B_i x_ij.
 template <int D, class T>
-HEADRACE_ALWAYS_INLINE T velocity_divergence(const T& V_j, const T& F, const VectorOf<D, T>& corrected_x_ij,
+HEADRACE_ALWAYS_INLINE T velocity_divergence(const T& V_F, const VectorOf<D, T>& corrected_x_ij,
                                              const VectorOf<D, T>& v_ij) {
-    return -(V_j * F * dot<D, T>(v_ij, corrected_x_ij));
+    return -(V_F * dot<D, T>(v_ij, corrected_x_ij));
 }
 
 }  // namespace headrace::solver

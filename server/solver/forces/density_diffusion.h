@@ -6,8 +6,8 @@
 //   psi_ij = 2 (delta_j - delta_i) x_ji/r^2 - (<grad delta>_i + <grad delta>_j)   Antuono et al. 2010, CPC 181, 532
 //
 // with x_ji = x_j - x_i, delta^H_ij = g . x_ji/c0^2 the part that hydrostatics explains (linear state equation), and
-// <grad delta> the corrected gradient. The first disturbs still water under gravity and every free surface; it is
-// here for comparison. Pairs with walls are left out.
+// <grad delta> the corrected gradient. x_ji . grad_i W = -F r^2. The first disturbs still water under gravity and every
+// free surface; it is here for comparison. Pairs with walls are left out.
 #pragma once
 
 #include "server/solver/pair.h"
@@ -18,17 +18,18 @@ enum class DensityDiffusion { none, molteni_colagrossi, fourtakas, antuono };
 
 inline constexpr double kUsualDiffusion = 0.1;  // xi, as the three sources use it
 
-// psi . grad W V_j for the first two; delta_H = 0 for Molteni & Colagrossi. x_ji . grad_i W = -F r^2.
-template <int D, class T>
-HEADRACE_ALWAYS_INLINE T plain_diffusion(const Pair<D, T>& pair, const T& F, const T& delta_ji, const T& delta_H) {
-    return -(pair.V_j * F * (2.0 * (delta_ji - delta_H)));
+// psi . grad W V_j for the first two. V_F = V_j F, delta_ij = delta_i - delta_j, delta_H = g . x_ij/c0^2, or 0 for
+// Molteni & Colagrossi.
+template <class T>
+HEADRACE_ALWAYS_INLINE T plain_diffusion(const T& V_F, const T& delta_ij, const T& delta_H) {
+    return V_F * (2.0 * (delta_ij - delta_H));
 }
 
 // The same for Antuono: sum_grad = <grad delta>_i + <grad delta>_j.
 template <int D, class T>
-HEADRACE_ALWAYS_INLINE T antuono_diffusion(const Pair<D, T>& pair, const T& F, const T& delta_ji,
+HEADRACE_ALWAYS_INLINE T antuono_diffusion(const T& V_F, const VectorOf<D, T>& x_ij, const T& delta_ij,
                                            const VectorOf<D, T>& sum_grad) {
-    return -(pair.V_j * F * (2.0 * delta_ji + dot<D, T>(sum_grad, pair.x_ij)));
+    return V_F * (2.0 * delta_ij - dot<D, T>(sum_grad, x_ij));
 }
 
 }  // namespace headrace::solver

@@ -19,7 +19,7 @@ enum class ViscosityForm { automatic, morris, monaghan_gingold };
 // F_ij corrected along the pair's direction.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T corrected_factor(const Pair<D, T>& pair, const T& F, const Symmetric<D, T>& mean_B) {
-    return F * dot<D, T>(pair.x_ij, mean_B * pair.x_ij) / (pair.r2 + tiny<T>());
+    return F * dot<D, T>(pair.x_ij, mean_B * pair.x_ij) / pair.r2;
 }
 
 // To be multiplied by mu/rho_i.
@@ -32,7 +32,7 @@ HEADRACE_ALWAYS_INLINE void accumulate_morris(const Pair<D, T>& pair, const T& F
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE void accumulate_monaghan_gingold(const Pair<D, T>& pair, const T& F, const VectorOf<D, T>& v_ij,
                                                         VectorOf<D, T>& sum) {
-    const T weight = 2.0 * (D + 2.0) * pair.V_j * F * dot<D, T>(v_ij, pair.x_ij) / (pair.r2 + tiny<T>());
+    const T weight = 2.0 * (D + 2.0) * pair.V_j * F * dot<D, T>(v_ij, pair.x_ij) / pair.r2;
     add_to<D, T>(sum, scaled<D, T>(weight, pair.x_ij));
 }
 

@@ -39,18 +39,19 @@ struct PressureSums {
     VectorOf<D, T> pB_grad{};  // adjoint: sum V_j p_j B_j grad W; difference: sum V_j p_j grad W
 };
 
-// grad = V_j grad_i W_ij
+// V_F = V_j F: V_j grad_i W_ij = V_F x_ij, multiplied last, since a product is added in one operation.
 template <int D, class T>
-HEADRACE_ALWAYS_INLINE void accumulate_adjoint(const VectorOf<D, T>& grad, const Symmetric<D, T>& pB_j,
+HEADRACE_ALWAYS_INLINE void accumulate_adjoint(const T& V_F, const VectorOf<D, T>& x_ij, const Symmetric<D, T>& pB_j,
                                                PressureSums<D, T>& sums) {
-    add_to<D, T>(sums.grad_1, grad);
-    add_to<D, T>(sums.pB_grad, pB_j * grad);
+    add_to<D, T>(sums.grad_1, scaled<D, T>(V_F, x_ij));
+    add_to<D, T>(sums.pB_grad, scaled<D, T>(V_F, pB_j * x_ij));
 }
 
 template <int D, class T>
-HEADRACE_ALWAYS_INLINE void accumulate_difference(const VectorOf<D, T>& grad, const T& p_j, PressureSums<D, T>& sums) {
-    add_to<D, T>(sums.grad_1, grad);
-    add_to<D, T>(sums.pB_grad, scaled<D, T>(p_j, grad));
+HEADRACE_ALWAYS_INLINE void accumulate_difference(const T& V_F, const VectorOf<D, T>& x_ij, const T& p_j,
+                                                  PressureSums<D, T>& sums) {
+    add_to<D, T>(sums.grad_1, scaled<D, T>(V_F, x_ij));
+    add_to<D, T>(sums.pB_grad, scaled<D, T>(V_F * p_j, x_ij));
 }
 
 // sign: +1, or -1 where tension is controlled.

@@ -62,7 +62,7 @@ struct CentreSight {
         const S* record = records + cluster(entry) * (4 * (D + 1));
         Pair<D, T> pair;
         for (int k = 0; k < D; ++k) pair.x_ij[k] = (x[k] + load_one<S>(&way.offset[k])) - load_four<S>(record + 4 * k);
-        pair.r2 = dot<D, T>(pair.x_ij, pair.x_ij);
+        pair.r2 = squared_distance<D, T>(pair.x_ij);
         pair.r = square_root<S>(pair.r2);
         pair.V_j = load_four<S>(record + 4 * D);
         return pair;

@@ -47,7 +47,7 @@ Tolerance judge(PlainFluid& fluid) {
             solver::Pair<D, double> pair;
             for (int k = 0; k < D; ++k)
                 pair.x_ij[k] = std::remainder(fluid.x[k][i] - fluid.x[k][j], fluid.domain.max[k]);
-            pair.r2 = solver::dot<D, double>(pair.x_ij, pair.x_ij);
+            pair.r2 = solver::squared_distance<D, double>(pair.x_ij);
             pair.r = std::sqrt(pair.r2);
             pair.V_j = static_cast<double>(fluid.V[j]);
             for (std::size_t f = 0; f <= D; ++f) neighbour.field[f] = fields[f][j];

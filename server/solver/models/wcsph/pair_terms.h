@@ -31,7 +31,7 @@ struct TermOptions {
 
 template <int D>
 Pair<D, double> make_pair_of(const std::array<double, D>& x_ij, double V_j) {
-    const double r2 = dot<D, double>(x_ij, x_ij);
+    const double r2 = squared_distance<D, double>(x_ij);
     return {x_ij, r2, std::sqrt(r2), V_j};
 }
 
@@ -49,18 +49,17 @@ class PairTerms {
     }
     // What the pair adds to the sums of the pressure pass, but for the artificial viscosity.
     void accumulate_pressure(Index j, const Pair<D, double>& pair, double F, PressureSums<D, double>& sums) const {
-        const Vector grad = scaled<D, double>(pair.V_j * F, pair.x_ij);
         if (options_.is_adjoint) {
-            accumulate_adjoint<D, double>(grad, pressure_matrix_at<D>(view_.particles, view_.state, j), sums);
+            accumulate_adjoint<D, double>(pair.V_j * F, pair.x_ij,
+                                          pressure_matrix_at<D>(view_.particles, view_.state, j), sums);
         } else {
-            accumulate_difference<D, double>(grad, view_.particles.p[j], sums);
+            accumulate_difference<D, double>(pair.V_j * F, pair.x_ij, view_.particles.p[j], sums);
         }
     }
 
     Vector wall_pressure(Index i, Index w, const Pair<D, double>& pair, double F) const {
         PressureSums<D, double> sums;
-        accumulate_difference<D, double>(scaled<D, double>(pair.V_j * F, pair.x_ij),
-                                         static_cast<double>(view_.wall_state.p[w]), sums);
+        accumulate_difference<D, double>(pair.V_j * F, pair.x_ij, static_cast<double>(view_.wall_state.p[w]), sums);
         return wall_pressure(i, sums);
     }
     Vector wall_pressure(Index i, PressureSums<D, double> sums) const {
@@ -89,7 +88,7 @@ class PairTerms {
 
     Vector artificial_viscosity(Index i, Index j, const Pair<D, double>& pair, double F) const {
         const Symmetric<D> S_i = matrix_at<D>(view_.state.strain, i), S_j = matrix_at<D>(view_.state.strain, j);
-        const double rate = approach_rate<D, double>(pair, velocity_difference(i, j), sum(S_i, S_j));
+        const double rate = approach_rate<D, double>(pair, velocity_difference(i, j), mean(S_i, S_j));
         return scaled<D, double>(options_.pressure.artificial_viscosity / view_.particles.rho[i] * pair.V_j * F * rate,
                                  pair.x_ij);
     }
@@ -118,14 +117,9 @@ class PairTerms {
     }
 
   private:
-    static Symmetric<D> sum(const Symmetric<D>& a, const Symmetric<D>& b) {
-        Symmetric<D> sum;
-        for (int k = 0; k < Symmetric<D>::kSize; ++k) sum.e[k] = a.e[k] + b.e[k];
-        return sum;
-    }
     static Symmetric<D> mean(const Symmetric<D>& a, const Symmetric<D>& b) {
-        Symmetric<D> mean = sum(a, b);
-        for (double& component : mean.e) component *= 0.5;
+        Symmetric<D> mean;
+        for (int k = 0; k < Symmetric<D>::kSize; ++k) mean.e[k] = 0.5 * (a.e[k] + b.e[k]);
         return mean;
     }
 

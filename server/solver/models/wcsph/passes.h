@@ -275,21 +275,21 @@ struct ContinuityPass {
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, T>& pair, const Neighbour& neighbour,
                                      Sums<T>& sums) const {
-        const T F = kernel.F(pair.r);
+        const T V_F = pair.V_j * kernel.F(pair.r);
         const std::array<T, D> v_ij = minus<D, T>(fields_of<T, D>(self, 0), fields_of<T, D>(neighbour, 0));
         Symmetric<D, T> B;
         B.e = fields_of<T, symmetric_size(D)>(self, kFluidFields);
-        sums.divergence += velocity_divergence<D, T>(pair.V_j, F, B * pair.x_ij, v_ij);
+        sums.divergence += velocity_divergence<D, T>(V_F, B * pair.x_ij, v_ij);
         if constexpr (kIsDiffusive && !IsWall) {
-            const T delta_ji = neighbour(D) - self(D);
+            const T delta_ij = self(D) - neighbour(D);
             if constexpr (kIsAntuono) {
                 std::array<T, D> sum_grad = fields_of<T, D>(self, D + 1);
                 add_to<D, T>(sum_grad, fields_of<T, D>(neighbour, D + 1));
-                sums.diffusion += antuono_diffusion<D, T>(pair, F, delta_ji, sum_grad);
+                sums.diffusion += antuono_diffusion<D, T>(V_F, pair.x_ij, delta_ij, sum_grad);
             } else {
                 T delta_H(0.0);
-                for (int k = 0; k < D; ++k) delta_H -= options.g_over_c2[k] * pair.x_ij[k];
-                sums.diffusion += plain_diffusion<D, T>(pair, F, delta_ji, delta_H);
+                for (int k = 0; k < D; ++k) delta_H += options.g_over_c2[k] * pair.x_ij[k];
+                sums.diffusion += plain_diffusion<T>(V_F, delta_ij, delta_H);
             }
         }
     }
@@ -320,7 +320,8 @@ struct PressurePass {
     static constexpr std::size_t kPressureFields = IsAdjoint ? symmetric_size(D) : 1;
     static constexpr std::size_t kFluidFields = kPressureFields + (HasAlpha ? D + symmetric_size(D) : 0);
     static constexpr std::size_t kWallFields = 1;
-    static constexpr std::size_t kFirstOwn = kPressureFields, kOwnFields = kFluidFields - kPressureFields;  // v, strain
+    static constexpr std::size_t kFirstOwn = kPressureFields,
+                                 kOwnFields = kFluidFields - kPressureFields;  // v, strain/2
     static constexpr std::size_t kCentreFields = 0;
 
     Kernel kernel;
@@ -345,7 +346,7 @@ struct PressurePass {
         }
         if constexpr (HasAlpha) {
             for (int k = 0; k < D; ++k) fields[kPressureFields + k] = data.particles.v[k];
-            for (int k = 0; k < symmetric_size(D); ++k) fields[kPressureFields + D + k] = data.state.strain[k];
+            for (int k = 0; k < symmetric_size(D); ++k) fields[kPressureFields + D + k] = {0.5, data.state.strain[k]};
         }
         return fields;
     }
@@ -354,19 +355,18 @@ struct PressurePass {
     template <bool IsWall, class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE void pair(const Self& self, const Pair<D, T>& pair, const Neighbour& neighbour,
                                      Sums<T>& sums) const {
-        const T F = kernel.F(pair.r);
-        const std::array<T, D> grad = scaled<D, T>(pair.V_j * F, pair.x_ij);
+        const T V_F = pair.V_j * kernel.F(pair.r);
         if constexpr (IsWall) {
-            accumulate_difference<D, T>(grad, neighbour(0), sums.walls);
+            accumulate_difference<D, T>(V_F, pair.x_ij, neighbour(0), sums.walls);
         } else {
             T rate(0.0);
             if constexpr (HasAlpha) {
                 const std::array<T, D> v_ij =
                     minus<D, T>(fields_of<T, D>(self, 0), fields_of<T, D>(neighbour, kPressureFields));
-                Symmetric<D, T> strains;
+                Symmetric<D, T> mean_strain;
                 for (int k = 0; k < symmetric_size(D); ++k)
-                    strains.e[k] = self(D + k) + neighbour(kPressureFields + D + k);
-                rate = approach_rate<D, T>(pair, v_ij, strains);
+                    mean_strain.e[k] = self(D + k) + neighbour(kPressureFields + D + k);
+                rate = approach_rate<D, T>(pair, v_ij, mean_strain);
             }
             if constexpr (IsAdjoint) {
                 Symmetric<D, T> pB_j;
@@ -375,10 +375,10 @@ struct PressurePass {
                     const T damping = options.artificial_viscosity * rate;
                     for (int k = 0; k < D; ++k) pB_j(k, k) -= damping;
                 }
-                accumulate_adjoint<D, T>(grad, pB_j, sums.fluid);
+                accumulate_adjoint<D, T>(V_F, pair.x_ij, pB_j, sums.fluid);
             } else {
-                accumulate_difference<D, T>(grad, neighbour(0), sums.fluid);
-                if constexpr (HasAlpha) add_to<D, T>(sums.artificial, scaled<D, T>(rate, grad));
+                accumulate_difference<D, T>(V_F, pair.x_ij, neighbour(0), sums.fluid);
+                if constexpr (HasAlpha) add_to<D, T>(sums.artificial, scaled<D, T>(V_F * rate, pair.x_ij));
             }
         }
     }

@@ -27,7 +27,7 @@ struct Cloud {
             if (j == i) continue;
             Pair<D, double> pair{};
             for (int k = 0; k < D; ++k) pair.x_ij[k] = x[i][k] - x[j][k];
-            pair.r2 = dot<D, double>(pair.x_ij, pair.x_ij);
+            pair.r2 = squared_distance<D, double>(pair.x_ij);
             pair.r = std::sqrt(pair.r2);
             pair.V_j = V[j];
             if (pair.r < R) visit(j, pair, kernel().F(pair.r));

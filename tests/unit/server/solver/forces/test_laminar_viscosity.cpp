@@ -87,6 +87,6 @@ TEST_CASE("LaminarViscosity.CorrectionAlongThePairIsOneForTheIdentity") {
     B(1, 1) = 1.0;
     // (2 * 0.09 + 0.16)/0.25
     CHECK(corrected_factor<2, double>(pair, -7.0, B) == Approx(-7.0 * 0.34 / 0.25));
-    const Pair<2, double> coincident{{0.0, 0.0}, 0.0, 0.0, 0.1};
+    const Pair<2, double> coincident{{0.0, 0.0}, squared_distance<2, double>({0.0, 0.0}), 0.0, 0.1};
     CHECK(corrected_factor<2, double>(coincident, -7.0, B) == 0.0);
 }

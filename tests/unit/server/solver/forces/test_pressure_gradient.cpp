@@ -26,7 +26,7 @@ TEST_CASE("PressureGradient.DifferenceFormIsExactForLinearPressure") {
     PressureSums<3, double> sums;
     cloud.for_each_neighbour(i, [&](std::size_t j, const Pair<3, double>& pair, double F) {
         accumulate_moment<3, double>(pair, F, M);
-        accumulate_difference<3, double>(scaled<3, double>(pair.V_j * F, pair.x_ij), p(cloud.x[j]), sums);
+        accumulate_difference<3, double>(pair.V_j * F, pair.x_ij, p(cloud.x[j]), sums);
     });
     const std::array<double, 3> a = difference_acceleration<3>(sums, p(cloud.x[i]), inverse(M), 800.0);
     // p is 300 times the differences across the support: 1e-16 grows to 1e-12.
@@ -34,14 +34,14 @@ TEST_CASE("PressureGradient.DifferenceFormIsExactForLinearPressure") {
 }
 
 TEST_CASE("PressureGradient.AdjointFormConservesMomentumPairByPair") {
-    const std::array<double, 2> grad{3.0, -1.0}, back{-3.0, 1.0};  // grad W of equal volumes V = 1
+    const std::array<double, 2> x_ij{3.0, -1.0}, x_ji{-3.0, 1.0};  // equal volumes, V F = 1
     Symmetric<2> B_i, B_j;
     B_i.e = {1.1, 0.2, 0.9};
     B_j.e = {0.8, -0.1, 1.3};
     const Symmetric<2> pB_i = scaled_matrix(5.0, B_i), pB_j = scaled_matrix(-2.0, B_j);
     PressureSums<2, double> at_i, at_j;
-    accumulate_adjoint<2, double>(grad, pB_j, at_i);
-    accumulate_adjoint<2, double>(back, pB_i, at_j);
+    accumulate_adjoint<2, double>(1.0, x_ij, pB_j, at_i);
+    accumulate_adjoint<2, double>(1.0, x_ji, pB_i, at_j);
     const auto a_i = adjoint_acceleration<2>(at_i, pB_i, 1.0, 1000.0),
                a_j = adjoint_acceleration<2>(at_j, pB_j, 1.0, 1000.0);
     for (int k = 0; k < 2; ++k) CHECK(a_i[k] == Approx(-a_j[k]));
@@ -69,7 +69,7 @@ TEST_CASE("PressureGradient.AdjointFormIsMinusTheTransposeOfTheDivergence") {
         double divergence = 0.0;
         cloud.for_each_neighbour(i, [&](std::size_t j, const Pair<2, double>& pair, double F) {
             const std::array<double, 2> grad = scaled<2, double>(pair.V_j * F, pair.x_ij);
-            accumulate_adjoint<2, double>(grad, scaled_matrix(p[j], B[j]), sums);
+            accumulate_adjoint<2, double>(pair.V_j * F, pair.x_ij, scaled_matrix(p[j], B[j]), sums);
             const std::array<double, 2> v_ji{v[j][0] - v[i][0], v[j][1] - v[i][1]};
             divergence += dot<2, double>(v_ji, B[i] * grad);
         });
@@ -86,7 +86,7 @@ TEST_CASE("PressureGradient.TensionControlTurnsTheMeanIntoTheDifference") {
     // p_i = p_j < 0, B = 1: no attraction is left.
     PressureSums<2, double> sums;
     const Symmetric<2> pB = scaled_matrix(-4.0, Symmetric<2>::identity());
-    accumulate_adjoint<2, double>({1.0, 2.0}, pB, sums);
+    accumulate_adjoint<2, double>(1.0, {1.0, 2.0}, pB, sums);
     CHECK(adjoint_acceleration<2>(sums, pB, -1.0, 10.0) == std::array{0.0, 0.0});
     CHECK(adjoint_acceleration<2>(sums, pB, 1.0, 10.0)[0] == Approx(0.8));
 }

@@ -231,19 +231,19 @@ void check_continuity(Bench<D> bench, WcsphSums& sums, DensityDiffusion form) {
         const auto add = [&](const Pair<D, double>& pair, const VectorField& v, Index j) {
             std::array<double, D> v_ij;
             for (int k = 0; k < D; ++k) v_ij[k] = bench.particles.v[k][i] - v[k][j];
-            divergence += velocity_divergence<D, double>(pair.V_j, sums.F(pair.r), B * pair.x_ij, v_ij);
+            divergence += velocity_divergence<D, double>(pair.V_j * sums.F(pair.r), B * pair.x_ij, v_ij);
         };
         bench.for_each_fluid(bench.x(i), [&](Index j, const Pair<D, double>& pair) {
             add(pair, bench.particles.v, j);
-            const double delta_ji = bench.state.delta[j] - bench.state.delta[i], F = sums.F(pair.r);
+            const double V_F = pair.V_j * sums.F(pair.r), delta_ij = bench.state.delta[i] - bench.state.delta[j];
             if (form == DensityDiffusion::antuono) {
                 std::array<double, D> sum_grad = vector_at<D>(bench.state.grad_delta, i);
                 add_to<D, double>(sum_grad, vector_at<D>(bench.state.grad_delta, j));
-                diffusion += antuono_diffusion<D, double>(pair, F, delta_ji, sum_grad);
+                diffusion += antuono_diffusion<D, double>(V_F, pair.x_ij, delta_ij, sum_grad);
             } else {
                 double delta_H = 0.0;
-                for (int k = 0; k < D; ++k) delta_H -= options.g_over_c2[k] * pair.x_ij[k];
-                diffusion += plain_diffusion<D, double>(pair, F, delta_ji, delta_H);
+                for (int k = 0; k < D; ++k) delta_H += options.g_over_c2[k] * pair.x_ij[k];
+                diffusion += plain_diffusion<double>(V_F, delta_ij, delta_H);
             }
         });
         bench.for_each_wall(bench.x(i), [&](Index w, const Pair<D, double>& pair) { add(pair, bench.walls.v, w); });
