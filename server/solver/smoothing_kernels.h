@@ -38,7 +38,7 @@ class WendlandC2 {
     }
     // V_i V_j F(r). What does not depend on r or j is multiplied first: loops do that once.
     template <class T>
-    HEADRACE_ALWAYS_INLINE T F(const T& r, const T& V_i, const T& V_j) const {
+    HEADRACE_ALWAYS_INLINE T weighted_F(const T& r, const T& V_i, const T& V_j) const {
         const T u = positive_or_zero(1.0 - r * inv_R_);
         return (slope_ * V_i * V_j * u) * (u * u);
     }

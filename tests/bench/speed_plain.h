@@ -10,7 +10,6 @@
 #include "server/solver/forces/artificial_viscosity.h"
 #include "server/solver/forces/continuity.h"
 #include "server/solver/forces/density_diffusion.h"
-#include "server/solver/forces/pressure_gradient.h"
 #include "server/solver/objects.h"
 #include "server/solver/pair.h"
 #include "server/solver/pairs/field_view.h"
@@ -118,7 +117,7 @@ struct PlainPass {
     template <class T, class Self, class Neighbour>
     HEADRACE_ALWAYS_INLINE Change<T> exchange(const Self& self, const solver::Pair<D, T>& pair, const T& V_i,
                                               const Neighbour& neighbour, Sums<T>& sums) const {
-        const Sums<T> terms = terms_of<T>(self, pair, kernel.F(pair.r, V_i, pair.V_j), neighbour);
+        const Sums<T> terms = terms_of<T>(self, pair, kernel.weighted_F(pair.r, V_i, pair.V_j), neighbour);
         add<T>(terms, sums);
         return change_of<T>(terms.push, diffusion * terms.diffusion + (1.0 + neighbour(D)) * terms.divergence);
     }
@@ -146,10 +145,10 @@ struct PlainPass {
         terms.divergence = solver::velocity_divergence<D, T>(V_F, pair.x_ij, v_ij);
         terms.diffusion = solver::plain_diffusion<T>(V_F, self(D) - neighbour(D), T(0.0));
         // With the linear state equation p_i + p_j = rho0 c0^2 (delta_i + delta_j). Artificial viscosity adds to it:
-        // one factor of x_ij for both.
+        // one factor of x_ij for both, over rho0 c0^2.
         const T approach = solver::approach_rate<D, T>(pair, solver::dot<D, T>(v_ij, pair.x_ij));
-        const T p = self(D) + neighbour(D) - viscosity * approach;
-        terms.push = solver::scaled<D, T>(V_F * p, pair.x_ij);
+        const T push = self(D) + neighbour(D) - viscosity * approach;
+        terms.push = solver::scaled<D, T>(V_F * push, pair.x_ij);
         return terms;
     }
 

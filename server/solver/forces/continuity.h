@@ -10,7 +10,7 @@
 
 namespace headrace::solver {
 
-// V_j (v_j - v_i) . B_i grad W. V_F = V_j F, F the gradient factor; corrected is B_i x_ij.
+// V_j (v_j - v_i) . B_i grad W. V_F = V_j F, F = W'/r; corrected is B_i x_ij.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE T velocity_divergence(const T& V_F, const VectorOf<D, T>& corrected_x_ij,
                                              const VectorOf<D, T>& v_ij) {

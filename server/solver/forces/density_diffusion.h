@@ -6,7 +6,7 @@
 //   psi_ij = 2 (delta_j - delta_i) x_ji/r^2 - (<grad delta>_i + <grad delta>_j)   Antuono et al. 2010, CPC 181, 532
 //
 // with x_ji = x_j - x_i, delta^H_ij = g . x_ji/c0^2 the part that hydrostatics explains (linear state equation), and
-// <grad delta> the corrected gradient. x_ji . grad_i W = -F r^2. The first disturbs still water under gravity and every
+// <grad delta> the corrected gradient. The first disturbs still water under gravity and every
 // free surface; it is here for comparison. Pairs with walls are left out.
 #pragma once
 
@@ -18,8 +18,8 @@ enum class DensityDiffusion { none, molteni_colagrossi, fourtakas, antuono };
 
 inline constexpr double kUsualDiffusion = 0.1;  // xi, as the three sources use it
 
-// psi . grad W V_j for the first two. V_F = V_j F, delta_ij = delta_i - delta_j, delta_H = g . x_ij/c0^2, or 0 for
-// Molteni & Colagrossi.
+// psi . grad W V_j for the first two, with x_ji . grad_i W = -F r^2, F = W'/r. V_F = V_j F, delta_ij = delta_i -
+// delta_j, delta_H = -delta^H_ij = g . x_ij/c0^2, or 0 for Molteni & Colagrossi.
 template <class T>
 HEADRACE_ALWAYS_INLINE T plain_diffusion(const T& V_F, const T& delta_ij, const T& delta_H) {
     return V_F * (2.0 * (delta_ij - delta_H));

@@ -39,7 +39,7 @@ struct PressureSums {
     VectorOf<D, T> pB_grad{};  // adjoint: sum V_j p_j B_j grad W; difference: sum V_j p_j grad W
 };
 
-// V_F = V_j F: V_j grad_i W_ij = V_F x_ij, multiplied last, since a product is added in one operation.
+// V_F = V_j F, F = W'/r: V_j grad_i W_ij = V_F x_ij, multiplied last, since a product is added in one operation.
 template <int D, class T>
 HEADRACE_ALWAYS_INLINE void accumulate_adjoint(const T& V_F, const VectorOf<D, T>& x_ij, const Symmetric<D, T>& pB_j,
                                                PressureSums<D, T>& sums) {

@@ -72,6 +72,16 @@ TEST_CASE("SmoothingKernels.AnyKernelsWendlandIsTheFastOne") {
     }
 }
 
+TEST_CASE("SmoothingKernels.WendlandC2IsWeightedByBothVolumes") {
+    const WendlandC2<2> kernel_2(kR);
+    const WendlandC2<3> kernel_3(kR);
+    for (double r = 0.0; r < 1.2 * kR; r += 0.013 * kR) {
+        // Approx is wide beside the rounding of four products.
+        CHECK(kernel_2.weighted_F(r, 0.3, 1.7) == Approx(0.3 * 1.7 * kernel_2.F(r)));
+        CHECK(kernel_3.weighted_F(r, 0.3, 1.7) == Approx(0.3 * 1.7 * kernel_3.F(r)));
+    }
+}
+
 TEST_CASE("SmoothingKernels.WendlandC2HasItsTabulatedValues") {
     // (1-s)^4 (1+4s) at s = 1/2 is 3/16; N = 7/(pi R^2), 21/(2 pi R^3).
     CHECK(WendlandC2<2>(2.0).W(1.0) == Approx(7.0 / (4.0 * std::numbers::pi) * 3.0 / 16.0));

@@ -34,7 +34,7 @@ TEST_CASE("DensityDiffusion.LeavesWhatItShouldAlone") {
         plain += plain_diffusion<double>(V_F, delta_ij, 0.0);
         size += std::abs(plain_diffusion<double>(V_F, delta_ij, 0.0));
         antuono += antuono_diffusion<2, double>(V_F, pair.x_ij, delta_ij, {2.0 * delta.b[0], 2.0 * delta.b[1]});
-        // hydrostatics: delta^H = g . x_ij/c0^2
+        // hydrostatics: delta_H = g . x_ij/c0^2
         fourtakas += plain_diffusion<double>(V_F, delta_ij, dot<2, double>(delta.b, pair.x_ij));
     });
     CHECK(std::abs(plain) > 1e-3 * size);
