@@ -51,8 +51,8 @@ class Counts:
 
     def sorts(self):
         reason = next(stage["reason"] for stage in self.plan if stage["stage"] == "neighbours")
-        found = re.search(r"sorted (\d+) times", reason)
-        return int(found.group(1)) if found else None
+        found = re.search(r"sorted (?:once|(\d+) times)", reason)
+        return int(found.group(1) or 1)
 
 
 def read_profile(file):
