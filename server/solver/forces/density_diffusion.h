@@ -6,8 +6,8 @@
 //   psi_ij = 2 (delta_j - delta_i) x_ji/r^2 - (<grad delta>_i + <grad delta>_j)   Antuono et al. 2010, CPC 181, 532
 //
 // with x_ji = x_j - x_i, delta^H_ij = g . x_ji/c0^2 the part that hydrostatics explains (linear state equation), and
-// <grad delta> the corrected gradient. The first disturbs still water under gravity and every
-// free surface; it is here for comparison. Pairs with walls are left out.
+// <grad delta> the corrected gradient. The first disturbs still water under gravity and every free surface; it is
+// here for comparison. Pairs with walls are left out.
 #pragma once
 
 #include "server/solver/pair.h"
