@@ -12,7 +12,6 @@
 
 #include "proto/man_page.h"
 #include "proto/version.h"
-#include "server/large_arrays.h"
 #include "server/service/endpoints.h"
 #include "server/service/log.h"
 #include "server/service/server.h"
@@ -145,7 +144,6 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
     headrace::solver::restart_with_settings(argv);
-    headrace::keep_large_arrays_apart();
     std::signal(SIGPIPE, SIG_IGN);  // whoever read our output has gone; the run goes on
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is a failed write, which recordings report
     Options options;

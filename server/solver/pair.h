@@ -1,4 +1,4 @@
-// One pair of particles, or eight pairs side by side: what every term of the accurate models starts from.
+// One pair of particles, or four to sixteen side by side: what every term of the accurate models starts from.
 // T: double or Lanes<S, N>. Index i is the particle that sums, j its neighbour.
 #pragma once
 

@@ -1,7 +1,8 @@
 // Loops and reductions over the OpenMP team of the calling thread.
 //
 // Every thread has a share of the blocks that follow one another, the same in all loops of the same count: what it
-// reads is mostly what it wrote before, and lies in its own cache. One that is done helps the others, from their ends.
+// reads is mostly what it wrote before, and lies in its own cache and memory. One that is done helps the others, from
+// their ends: blocks that cost more than others, at walls or where neighbours are many, are balanced by what they take.
 //
 // The result never depends on the number of threads: blocks are fixed by the count alone, each block writes its own
 // elements, and reductions combine the blocks' values in block order. An exception in a block is rethrown in the

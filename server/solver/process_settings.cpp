@@ -12,7 +12,7 @@ void restart_with_settings(char** argv) {
     constexpr const char* kSpins = "10000";  // some ten microseconds, the length of a barrier between busy threads
     constexpr const char* kMemory =
         "glibc.malloc.hugetlb=1"  // where the kernel has them for those who ask
-        ":glibc.malloc.mmap_threshold=1048576:glibc.malloc.trim_threshold=8388608";
+        ":glibc.malloc.mmap_threshold=1048576:glibc.malloc.trim_threshold=67108864";
     const bool waits = std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr;
     const bool is_tuned = std::getenv("GLIBC_TUNABLES") != nullptr;
     if (waits && is_tuned) return;

@@ -14,8 +14,10 @@ namespace headrace::solver {
 //
 // Huge pages for what is allocated: at 10^6 particles sorting takes half of the time (28 to 13 ns a particle).
 //
-// Arrays of 1 MiB and more go back to the system when they are freed. By default glibc keeps such memory once it has
-// been freed: 7 bytes a particle at 10^6.
+// Arrays of 1 MiB and more have pages of their own, which go back to the system when they are freed. glibc would do so
+// at first, and from the first one freed on put arrays up to 32 MB between the many small ones of the neighbour lists,
+// where their room is lost: 7 bytes a particle at 10^6. Of the small ones, which come and go with each sort, up to 64
+// MiB at the end are kept.
 void restart_with_settings(char** argv);
 
 }  // namespace headrace::solver

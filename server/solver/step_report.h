@@ -28,8 +28,9 @@ struct Fault {
 };
 
 struct StepReport {
-    double dt{};         // [s] the step just done
-    double max_speed{};  // [m/s] largest |v|
+    double dt{};            // [s] the step just done
+    double max_speed{};     // [m/s] largest |v|
+    int acoustic_steps{1};  // parts of it that follow sound; 1 in models that have none
     std::optional<Fault> fault;
 };
 

@@ -95,15 +95,33 @@ class Ladders {
     }
 
   private:
-    // The default has one of the two forms of density diffusion, by the flow.
+    // The default has one of the two forms of density diffusion, by the flow, and one of the two kinds of walls, by the
+    // scene, if it has any.
     static bool repeats_default(const validation::Case& one, const LadderOption& option) {
-        const auto form = option.parameters.find("density_diffusion");
-        if (form == option.parameters.end()) return false;
-        const auto scene = validation::make_scene(one, {});
+        const auto form = option.parameters.find("density_diffusion"), walls = option.parameters.find("walls");
+        const bool is_form = form != option.parameters.end(), is_walls = walls != option.parameters.end();
+        if (!is_form && !is_walls) return false;
+        validation::Settings coarse;
+        coarse.resolution = one.ladder.front();
+        const auto scene = validation::make_scene(one, coarse);
         if (!scene) return false;
+        if (is_walls) {
+            const std::string kind = wall_kind(*scene);
+            return kind.empty() || kind == std::get<std::string>(walls->second);
+        }
         const auto free_surface = scene->parameters.find("free_surface");
         const bool is_confined = free_surface != scene->parameters.end() && !std::get<bool>(free_surface->second);
         return std::get<std::string>(form->second) == (is_confined ? "fourtakas" : "antuono");
+    }
+
+    // As the parameter is called; empty: the scene has none.
+    static std::string wall_kind(const proto::SceneDesc& scene) {
+        if (scene.objects.empty()) return {};
+        const auto run = scene::Run::build(scene);
+        if (!run) return {};
+        for (const solver::Stage& stage : (*run)->plan())
+            if (stage.name == "walls" && stage.reason.find("integrals") != std::string::npos) return "integrals";
+        return "particles";
     }
 
     // One case and option, coarse to fine. False: out of budget.
@@ -181,7 +199,7 @@ std::vector<LadderOption> ladder_options(bool quick) {
     for (const char* form : {"fourtakas", "antuono"}) add("density_diffusion", std::string(form), form);
     add("state_equation", std::string("tait"), "tait");
     add("artificial_viscosity", 0.02, "0.02");
-    add("walls", std::string("integrals"), "integrals");
+    for (const char* kind : {"particles", "integrals"}) add("walls", std::string(kind), kind);
     options.push_back({"default", "thesis"});
     options.push_back({"stiff", "thesis"});
     return options;

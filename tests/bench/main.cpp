@@ -4,7 +4,6 @@
 #include <iostream>
 #include <string>
 
-#include "server/large_arrays.h"
 #include "server/solver/process_settings.h"
 #include "tests/bench/accuracy.h"
 #include "tests/bench/count_steps.h"
@@ -69,7 +68,6 @@ bool run_case(const std::string& preset, double refine, const Options& options, 
 
 int main(int argc, char** argv) {
     headrace::solver::restart_with_settings(argv);  // as the server does
-    headrace::keep_large_arrays_apart();
     if (argc > 1 && std::string(argv[1]) == "accuracy") return bench::run_accuracy(argc - 1, argv + 1);
     if (argc > 1 && std::string(argv[1]) == "stability") return bench::run_stability(argc - 1, argv + 1);
     if (argc > 1 && std::string(argv[1]) == "strategies") return bench::run_strategies(argc - 1, argv + 1);

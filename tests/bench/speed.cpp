@@ -8,10 +8,12 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <utility>
 
-#include "tests/bench/speed_cases.h"
 #include "tests/bench/speed_compare.h"
+#include "tests/bench/speed_dam_break.h"
 #include "tests/bench/speed_growth.h"
+#include "tests/bench/speed_plain_case.h"
 #include "tests/bench/speed_tables.h"
 
 namespace headrace::bench {
@@ -38,6 +40,7 @@ struct Options {
     bool all_sets{false};
     bool only_tables{false};
     std::string folder{kResults};
+    std::string name{"speed.csv"};
     std::string other;  // binary to compare with
     int rounds{3};
 };
@@ -83,8 +86,14 @@ void define_options(CLI::App& app, Options& options) {
     app.add_flag("--keep-faster", options.keep_faster, "Keep the table's line where it is faster");
     app.add_option("--set", options.plan.settings, "Parameter of the models in the dam breaks, name=value; several")
         ->allow_extra_args(false);
-    app.add_option("--out", options.folder, "Folder of speed.csv")->capture_default_str();
-    app.add_flag("--readme", options.only_tables, "Only make the tables of README.md and speed.md from speed.csv");
+    app.add_option("--out", options.folder, "Folder of the measurements")->capture_default_str();
+    app.add_option("--name", options.name, "File of the measurements, speed*.csv: one for each machine and build")
+        ->check([](const std::string& name) {
+            const bool is_plain = name.find('/') == std::string::npos;
+            return is_plain && name.starts_with("speed") && name.ends_with(".csv") ? "" : "must be speed*.csv: " + name;
+        })
+        ->capture_default_str();
+    app.add_flag("--readme", options.only_tables, "Only make the tables of README.md and speed*.md from speed*.csv");
     app.add_option("--compare", options.other,
                    "Another build's headrace_bench: both by turns, smallest, median and largest ratio of this to it")
         ->check(CLI::ExistingFile);
@@ -136,18 +145,24 @@ proto::Status run_case(const std::string& name, const Options& options, const Sp
     return time_dam_break(name.substr(0, name.find('_')), dimensions, plan, sink);
 }
 
-// README.md and speed.md as the measurements say. The README is that of the repository whose results they are.
-bool write_tables(const std::vector<SpeedRow>& rows) {
+// README.md and speed*.md as the measurements say. The README is that of the repository whose results they are.
+bool write_tables() {
     const std::string readme = std::string(HEADRACE_SOURCE_DIR) + "/README.md";
     std::ifstream file(readme);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    const auto fresh = with_speed_tables(text, rows);
-    if (!fresh) {
-        std::cerr << "headrace_bench: " << readme << " has no place for the tables\n";
-        return false;
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    bool is_written = true;
+    for (const std::string& name : find_speed_files(kResults)) {
+        const std::vector<SpeedRow> rows = read_speed_csv(kResults + "/" + name);
+        const std::string document = kResults + "/" + std::filesystem::path(name).stem().string() + ".md";
+        is_written = is_written && std::ofstream(document) << speed_document(name, rows);
+        if (auto fresh = with_speed_tables(text, name, rows); fresh) {
+            text = std::move(*fresh);
+        } else {
+            std::cerr << "headrace_bench: " << readme << " has no place for the tables of " << name << '\n';
+            is_written = false;
+        }
     }
-    return static_cast<bool>(std::ofstream(readme) << *fresh) &&
-           static_cast<bool>(std::ofstream(kResults + "/speed.md") << speed_document(rows));
+    return is_written && std::ofstream(readme) << text;
 }
 
 }  // namespace
@@ -159,16 +174,17 @@ int run_speed(int argc, char** argv) {
         "model at its defaults, t = 0.2 to 0.4 s; growth_* (on request): time and peak memory\n"
         "per particle from 10^5 to 10^7. Beside each figure stands what fused multiply-adds the machine "
         "gave.\n"
-        "Writes speed.csv, in which lines of other cases stay, and from it speed.md and the tables of README.md."};
+        "Writes speed.csv (or --name), in which lines of other cases stay, and from it speed.md and the tables of\n"
+        "README.md."};
     Options options;
     define_options(app, options);
     CLI11_PARSE(app, argc, argv);
     if (!options.other.empty()) return compare_builds(options.other, options.rounds, {argv + 1, argv + argc});
 
     std::filesystem::create_directories(options.folder);
-    const std::string table = options.folder + "/speed.csv";
+    const std::string table = options.folder + "/" + options.name;
+    if (options.only_tables) return write_tables() ? 0 : 2;
     std::vector<SpeedRow> rows = read_speed_csv(table);
-    if (options.only_tables) return write_tables(rows) ? 0 : 2;
     std::cout << speed_table_head() << '\n';
     bool is_written = true;
     const auto sink = [&](const SpeedRow& row) {
@@ -187,7 +203,7 @@ int run_speed(int argc, char** argv) {
             return 2;
         }
     }
-    if (options.folder == kResults && !write_tables(rows)) return 2;
+    if (options.folder == kResults && !write_tables()) return 2;
     return all_ran ? 0 : 1;
 }
 

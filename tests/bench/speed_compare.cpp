@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 
 #include "tests/bench/speed_report.h"
 
@@ -14,14 +15,18 @@ namespace headrace::bench {
 
 namespace {
 
-// The arguments without those that this run replaces.
+constexpr const char* kReplaced[] = {"--compare", "--out", "--name", "--rounds"};
+
+// The arguments without those that this run replaces, and their values.
 std::vector<std::string> find_shared(const std::vector<std::string>& arguments) {
     std::vector<std::string> shared;
     for (std::size_t k = 0; k < arguments.size(); ++k) {
         const std::string& word = arguments[k];
-        if (word == "--compare" || word == "--out" || word == "--rounds") {
-            ++k;  // and its value
-        } else if (!word.starts_with("--compare=") && !word.starts_with("--out=") && !word.starts_with("--rounds=")) {
+        const auto is = [&](const char* option) { return word == option; };
+        const auto is_set = [&](const char* option) { return word.starts_with(std::string(option) + "="); };
+        if (std::any_of(std::begin(kReplaced), std::end(kReplaced), is)) {
+            ++k;
+        } else if (std::none_of(std::begin(kReplaced), std::end(kReplaced), is_set)) {
             shared.push_back(word);
         }
     }

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "proto/result.h"
-#include "tests/bench/speed_cases.h"
+#include "tests/bench/speed_case.h"
 
 namespace headrace::bench {
 
-// The plain fluid, its vortices equally large whatever the number of particles, so that lists last equally long.
-// Windows of the sizes take turns.
+// The plain fluid with whole and with half lists, its vortices equally large whatever the number of particles, so that
+// lists last equally long. Windows of the sizes take turns.
 proto::Status time_plain_growth(const std::vector<std::size_t>& particles, const SpeedPlan& plan,
                                 const SpeedSink& sink);
 

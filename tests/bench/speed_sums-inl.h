@@ -301,28 +301,6 @@ PlainSums* make_sums(PairStrategy strategy, int dimensions) {
     return dimensions == 2 ? make_sums_in<2>(strategy) : make_sums_in<3>(strategy);
 }
 
-// ---- the machine ----------------------------------------------------------------------------------------------------
-
-double run_fma() {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const hn::ScalableTag<float> d;
-    constexpr int kChains = 12, kTurns = 400000;  // enough chains to hide the latency of two units
-    const auto factor = hn::Set(d, 0.999f), term = hn::Set(d, 0.001f);
-    hn::Vec<decltype(d)> chain[kChains];
-    for (int k = 0; k < kChains; ++k) chain[k] = hn::Set(d, 0.1f * static_cast<float>(k));
-    StageClock clock;
-    for (int turn = 0; turn < kTurns; ++turn) {
-#pragma GCC unroll 12
-        for (int k = 0; k < kChains; ++k) chain[k] = hn::MulAdd(chain[k], factor, term);
-    }
-    const double seconds = clock.lap();
-    auto sum = chain[0];
-    for (int k = 1; k < kChains; ++k) sum = hn::Add(sum, chain[k]);
-    volatile float keep = hn::GetLane(hn::SumOfLanes(d, sum));
-    static_cast<void>(keep);
-    return 2.0 * static_cast<double>(hn::Lanes(d)) * kChains * kTurns / seconds * 1e-9;
-}
-
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace headrace::bench::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -10,7 +10,6 @@
 namespace headrace::bench {
 
 HWY_EXPORT(make_sums);
-HWY_EXPORT(run_fma);
 
 std::string_view pair_strategy_name(PairStrategy strategy) {
     switch (strategy) {
@@ -28,12 +27,6 @@ std::string_view pair_strategy_name(PairStrategy strategy) {
 
 std::unique_ptr<PlainSums> make_plain_sums(PairStrategy strategy, int dimensions) {
     return std::unique_ptr<PlainSums>(HWY_DYNAMIC_DISPATCH(make_sums)(strategy, dimensions));
-}
-
-double measure_fma_gflops() {
-    double best = 0.0;
-    for (int window = 0; window < 5; ++window) best = std::max(best, HWY_DYNAMIC_DISPATCH(run_fma)());
-    return best;
 }
 
 }  // namespace headrace::bench

@@ -1,10 +1,9 @@
-// The pair sums of the plain fluid (speed_plain.h) by three strategies, all with the same terms, in single precision:
+// The pair sums of the plain fluid (speed_plain.h) by four strategies, all with the same terms, in single precision:
 //
 //   clusters   the engine of server/solver/pairs: lists of 4 x 4 points, reused over steps
 //   half       the same with each pair listed once, for both of its points
 //   buffer     cells sorted every step; the candidates of a cell copied once, then as many of them as a vector has
-//   lanes
-//              with one particle at a time
+//              lanes with one particle at a time
 //   broadcast  the same candidates one at a time with as many particles of the cell as a vector has lanes
 #pragma once
 
@@ -12,17 +11,13 @@
 #include <string_view>
 
 #include "tests/bench/speed_plain.h"
+#include "tests/bench/stage_seconds.h"
 
 namespace headrace::bench {
 
 enum class PairStrategy { clusters, half, buffer, broadcast };
 
 std::string_view pair_strategy_name(PairStrategy strategy);
-
-// [s] spent in each stage.
-struct StageSeconds {
-    double sort{}, list{}, pair{}, integrate{};
-};
 
 class PlainSums {
   public:
@@ -36,8 +31,5 @@ class PlainSums {
 
 // In the instruction set of now (OnlyInstructionSet).
 std::unique_ptr<PlainSums> make_plain_sums(PairStrategy strategy, int dimensions);
-
-// [GFLOP/s] of one core in fused multiply-adds in registers, single precision: what the machine gives at this moment.
-double measure_fma_gflops();
 
 }  // namespace headrace::bench

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
+#include <iterator>
+#include <utility>
 
 #include "tests/bench/text.h"
 
@@ -121,31 +124,32 @@ std::string engine_table(const std::vector<SpeedRow>& rows, const std::string& i
     return text;
 }
 
-// What else there is of a case, over its clusters on one thread in the best set.
-std::string ratio_table(const std::vector<SpeedRow>& rows, const std::string& isa, double support) {
-    struct Column {
-        const char* strategy;
-        const char* isa;  // null: the best
-        int threads;
-        std::string title;
-    };
-    const Column columns[] = {{"half", nullptr, 1, "half lists"},
-                              {"buffer", nullptr, 1, "buffer"},
-                              {"broadcast", nullptr, 1, "broadcast"},
-                              {"clusters", "AVX2", 1, "AVX2"},
-                              {"clusters", "SSE4", 1, "SSE4"},
-                              {"clusters", "SCALAR", 1, "without SIMD"},
-                              {"clusters", nullptr, 2, "two threads together"},
-                              {"half", nullptr, 2, "the same, half lists"}};
-    std::string text = text_of("| R/dp = %.3g, speed over that of clusters | particles |", support), rule = "|---|---|";
-    for (const Column& column : columns) {
-        text += " " + column.title + " |";
-        rule += "---|";
-    }
-    text += "\n" + rule + "\n";
+// What else there may be of a case, over its clusters on one thread in the best set.
+struct RatioColumn {
+    const char* strategy;
+    const char* isa;  // null: the best
+    int threads;
+    const char* title;
+};
+constexpr RatioColumn kRatios[] = {{"half", nullptr, 1, "half lists"},
+                                   {"buffer", nullptr, 1, "buffer"},
+                                   {"broadcast", nullptr, 1, "broadcast"},
+                                   {"clusters", "AVX2", 1, "AVX2"},
+                                   {"clusters", "SSE4", 1, "SSE4"},
+                                   {"clusters", "SCALAR", 1, "without SIMD"},
+                                   {"clusters", nullptr, 2, "two threads together"},
+                                   {"half", nullptr, 2, "the same, half lists"}};
+
+struct RatioLine {
+    std::string size;
+    double ratios[std::size(kRatios)]{};  // 0: not measured
+};
+
+std::vector<RatioLine> find_ratios(const std::vector<SpeedRow>& rows, const std::string& isa, double support) {
+    std::vector<RatioLine> lines;
     for (const std::string name : {"plain_2d", "plain_3d"}) {
         for (const Size& size : kSizes) {
-            const auto of = [&](const char* strategy, const std::string& set, int threads) {
+            const auto of = [&](const std::string& strategy, const std::string& set, int threads) {
                 return find(rows, [&](const SpeedRow& row) {
                     return row.name == name && row.strategy == strategy && row.threads == threads && row.isa == set &&
                            is_of_support(row, support) && is_of_size(row, size);
@@ -153,22 +157,65 @@ std::string ratio_table(const std::vector<SpeedRow>& rows, const std::string& is
             };
             const SpeedRow* one = of("clusters", isa, 1);
             if (one == nullptr) continue;
-            std::string cells;
-            bool has_any = false;
-            for (const Column& column : columns) {
+            RatioLine line{"| " + name.substr(6, 1) + "D | " + with_thousands(static_cast<long>(one->particles)), {}};
+            for (std::size_t c = 0; c < std::size(kRatios); ++c) {
+                const RatioColumn& column = kRatios[c];
                 const SpeedRow* other = of(column.strategy, column.isa != nullptr ? column.isa : isa, column.threads);
-                has_any = has_any || other != nullptr;
+                if (other == nullptr || other == one) continue;
                 // With threads: of the whole, not of a core.
-                cells += other != nullptr
-                             ? text_of(" %.2f |", other->Mpsps_per_core * other->threads / one->Mpsps_per_core)
-                             : " - |";
+                line.ratios[c] = other->Mpsps_per_core * other->threads / one->Mpsps_per_core;
             }
-            if (has_any)
-                text += "| " + name.substr(6, 1) + "D | " + with_thousands(static_cast<long>(one->particles)) + " |" +
-                        cells + "\n";
+            const bool is_alone =
+                std::all_of(std::begin(line.ratios), std::end(line.ratios), [](double ratio) { return ratio == 0.0; });
+            if (!is_alone) lines.push_back(std::move(line));
         }
     }
+    return lines;
+}
+
+std::string ratio_table(const std::vector<SpeedRow>& rows, const std::string& isa, double support) {
+    const std::vector<RatioLine> lines = find_ratios(rows, isa, support);
+    const auto is_measured = [&](std::size_t c) {
+        return std::any_of(lines.begin(), lines.end(), [&](const RatioLine& line) { return line.ratios[c] > 0.0; });
+    };
+    std::string text = text_of("| R/dp = %.3g, speed over that of clusters | particles |", support), rule = "|---|---|";
+    for (std::size_t c = 0; c < std::size(kRatios); ++c) {
+        if (!is_measured(c)) continue;
+        text += std::string(" ") + kRatios[c].title + " |";
+        rule += "---|";
+    }
+    text += "\n" + rule + "\n";
+    for (const RatioLine& line : lines) {
+        text += line.size + " |";
+        for (std::size_t c = 0; c < std::size(kRatios); ++c)
+            if (is_measured(c)) text += line.ratios[c] > 0.0 ? text_of(" %.2f |", line.ratios[c]) : " - |";
+        text += "\n";
+    }
     return text;
+}
+
+// How time and memory of a particle grow with the number of particles; empty where that was not measured.
+std::string growth_table(const std::vector<SpeedRow>& rows) {
+    std::string text;
+    for (const std::string name : {"growth_plain_3d", "growth_wcsph_3d"}) {
+        for (const std::string strategy : {"clusters", "half"}) {
+            const auto is_one = [&](const SpeedRow& row) { return row.name == name && row.strategy == strategy; };
+            const SpeedRow* fewest = nullptr;
+            for (const SpeedRow& row : rows)
+                if (is_one(row) && (fewest == nullptr || row.particles < fewest->particles)) fewest = &row;
+            for (const SpeedRow& row : rows) {
+                if (!is_one(row)) continue;
+                text +=
+                    "| " + row.model + (strategy == "half" ? " | half | " : " | whole | ") +
+                    with_thousands(static_cast<long>(row.particles)) + " | " + row.isa + " | " + figure(&row) +
+                    text_of(" | %.2f | %.0f |\n", fewest->Mpsps_per_core / row.Mpsps_per_core, row.bytes_per_particle);
+            }
+        }
+    }
+    if (text.empty()) return "";
+    return "| growth, 3D, R/dp = 3, one thread | lists | particles | set | full steps | time per particle over that of "
+           "the fewest | bytes a particle |\n|---|---|---|---|---|---|---|\n" +
+           text;
 }
 
 // One line per case and size: which strategy is the fastest.
@@ -206,27 +253,48 @@ std::string strategy_table(const std::vector<SpeedRow>& rows, const std::string&
 }
 
 std::string readme_tables(const std::vector<SpeedRow>& rows) {
-    const std::string isa = find_best_set(rows);
-    return "\n" + models_table(rows) + "\n" + engine_table(rows, isa) + "\n" + ratio_table(rows, isa, 3.0) + "\n";
+    const std::string isa = find_best_set(rows), growth = growth_table(rows);
+    return "\n" + models_table(rows) + "\n" + engine_table(rows, isa) + "\n" + ratio_table(rows, isa, 3.0) + "\n" +
+           (growth.empty() ? "" : growth + "\n");
 }
 
 }  // namespace
 
-std::optional<std::string> with_speed_tables(const std::string& readme, const std::vector<SpeedRow>& rows) {
-    const std::size_t begin = readme.find(kSpeedBegin);
+std::string speed_begin(const std::string& name) {
+    return "<!-- made by `headrace_bench speed --readme` from " + name + " -->\n";
+}
+
+std::string speed_end(const std::string& name) {
+    return "<!-- end of " + name + " -->\n";
+}
+
+std::optional<std::string> with_speed_tables(const std::string& readme, const std::string& name,
+                                             const std::vector<SpeedRow>& rows) {
+    const std::size_t begin = readme.find(speed_begin(name));
     if (begin == std::string::npos) return std::nullopt;
-    const std::size_t first = begin + std::string(kSpeedBegin).size(), end = readme.find(kSpeedEnd, first);
+    const std::size_t first = begin + speed_begin(name).size(), end = readme.find(speed_end(name), first);
     if (end == std::string::npos) return std::nullopt;
     return readme.substr(0, first) + readme_tables(rows) + readme.substr(end);
 }
 
-std::string speed_document(const std::vector<SpeedRow>& rows) {
-    const std::string isa = find_best_set(rows);
-    return "# Speed of the pair engine and of whole models\n\nMade by `headrace_bench speed --readme` from speed.csv; "
-           "README.md says what the cases are. M particle-steps per second and\ncore; in brackets GFLOP/s of fused "
+std::string speed_document(const std::string& name, const std::vector<SpeedRow>& rows) {
+    const std::string isa = find_best_set(rows), growth = growth_table(rows);
+    return "# Speed of the pair engine and of whole models\n\nMade by `headrace_bench speed --readme` from " + name +
+           "; README.md says what the cases are. M particle-steps per second and\ncore; in brackets GFLOP/s of fused "
            "multiply-adds beside the measurement, one core.\n\n## Models\n\n" +
            models_table(rows) + "\n## Strategies, one thread, " + isa + "\n\n" + strategy_table(rows, isa) +
-           "\n## Instruction sets and threads\n\n" + ratio_table(rows, isa, 3.0);
+           "\n## Instruction sets and threads\n\n" + ratio_table(rows, isa, 3.0) +
+           (growth.empty() ? "" : "\n## Growth\n\n" + growth);
+}
+
+std::vector<std::string> find_speed_files(const std::string& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("speed") && name.ends_with(".csv")) names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 }  // namespace headrace::bench

@@ -198,7 +198,7 @@ class Thesis final : public Model {
     StepReport check(const Particles& particles, const Surroundings& surroundings) const {
         Inspection found = solver::inspect(particles, surroundings.domain);
         if (found.fault) found.fault->remedy = make_remedy(found, surroundings);
-        return {parameters_.time_step, found.max_speed, std::move(found.fault)};
+        return {.dt = parameters_.time_step, .max_speed = found.max_speed, .fault = std::move(found.fault)};
     }
 
     std::string make_remedy(const Inspection& found, const Surroundings& surroundings) const;

@@ -109,7 +109,7 @@ class PairList {
     std::size_t bytes() const;
 
   private:
-    struct Scratch {
+    struct alignas(64) Scratch {  // of one thread, which counts in it
         NearBlocks<S> near;
         std::vector<PairWay<S>> ways;
         std::vector<PairEntry> entries, far;

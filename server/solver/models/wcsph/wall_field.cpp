@@ -123,8 +123,7 @@ void WallField::evaluate_gravity(const Surroundings& surroundings, double t, con
 double WallField::max_speed() const {
     const WallParticles& w = walls_.particles();
     double v2_max = 0.0;
-    if (w.v[0].empty()) return v2_max;
-    for (std::size_t i = 0; i < w.size(); ++i) {
+    for (std::size_t i = 0; i < w.v[0].size(); ++i) {  // none where all rest
         double v2 = 0.0;
         for (int k = 0; k < dimensions_; ++k) v2 += w.v[k][i] * w.v[k][i];
         v2_max = std::max(v2_max, v2);

@@ -416,8 +416,8 @@ StepReport Wcsph::finish(Particles& particles, const Surroundings& surroundings,
         max_speed_ = found.max_speed;
         const Extremes extremes = find_extremes(particles, state_.delta);
         max_acceleration_ = extremes.max_acceleration;
+        report = {dt, found.max_speed, next_.acoustic_steps, std::move(found.fault)};
         next_ = limit_step(dt > 0.0 ? next_.dt : 0.0);
-        report = {dt, found.max_speed, std::move(found.fault)};
         if (report.fault)
             report.fault->remedy = remedy_for(report.fault->kind, run_limits());
         else

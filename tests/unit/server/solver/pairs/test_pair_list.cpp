@@ -290,6 +290,38 @@ TEST_CASE("PairList.BringsBackPrunedPairsThatComeNear") {
     CHECK(across() > 0);
 }
 
+TEST_CASE("PairList.HoldsForAMotionOfItsSkinAndNotForMore") {
+    // Two bodies just out of the lists' reach that close in. A criterion that let them go on would miss pairs: they are
+    // within the support then, and not in the lists.
+    const int dimensions = GENERATE(2, 3);
+    constexpr double kLittle = 1e-3;
+    Points points;
+    points.dimensions = dimensions;
+    for (int k = 0; k < 150; ++k) {
+        const double x = k % 5, y = k / 5 % 5, z = dimensions == 3 ? k / 25 : 0.05 * (k / 25);
+        points.add({x, y, z});
+        points.add({x + 4.0 + kSupport + kSkin + kLittle, y, z});
+    }
+    points.sort();
+    NeighbourInput in = input_of(points);
+    in.reach.inner_skin = kSkin;  // none is pruned
+    PairNeighboursOf<float> neighbours;
+    neighbours.find(in);
+    const auto close_in = [&](double way) {  // both by half of it
+        for (std::size_t i = 0; i < points.size(); ++i) points.x[0][i] += points.x[0][i] < 5.7 ? 0.5 * way : -0.5 * way;
+        return neighbours.move_fluid(points.x, points.V.data());
+    };
+    REQUIRE(close_in(kSkin - kLittle));
+    check_complete(neighbours, points);
+    CHECK_FALSE(close_in(3.0 * kLittle));
+    const auto listed = listed_pairs(neighbours.among_fluid(), neighbours.fluid(), neighbours.fluid());
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t j = 0; j < points.size(); ++j)
+            missing += points.distance(i, j) < kSupport - 0.5 * kLittle && !listed.contains({i, j});
+    CHECK(missing > 0);
+}
+
 TEST_CASE("PairList.MendsTheListsOfAFewThatOutrunTheirSkin") {
     // A drop flies at a corner of a large body at rest, from out of reach, by several skins.
     const int dimensions = GENERATE(2, 3);

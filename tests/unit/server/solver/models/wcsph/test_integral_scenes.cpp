@@ -218,6 +218,27 @@ TEST_CASE("IntegralScenes.TankCarriesStillWater") {
     CHECK(std::abs(load.force[0]) < 1e-9 * 9.81 * mass);
 }
 
+TEST_CASE("IntegralScenes.FluidIsStiffEnoughForTheSpeedOfTheirSurfaces") {
+    // Ten times the fastest wall, as with particles: nothing else moves the fluid.
+    const char* walls = GENERATE("integrals", "particles");
+    Scene scene = make_periodic_square(24);
+    scene.domain = {{-1, -1, -1}, {2, 2, 2}};
+    CollisionObject lid{"lid", Role::obstacle, Plane{{0, 1, 0}, {0, -1, 0}}};
+    lid.motion = [](double) {
+        RigidState state;
+        state.surface_velocity = {0.7, 0.0, 0.0};
+        return state;
+    };
+    lid.is_belt = true;
+    scene.objects = {lid};
+    scene.parameters["walls"] = string(walls);
+    scene.parameters["gravity"] = Vec3{};
+    scene.parameters.erase("sound_speed");
+    REQUIRE_FALSE(scene.start().fault);
+    CHECK(is_without_dummies(scene) == (string(walls) == "integrals"));
+    CHECK(std::get<double>(scene.model->parameters().at("sound_speed")) == Approx(7.0));
+}
+
 TEST_CASE("IntegralScenes.OthersStayParticles") {
     Scene scene = with_integrals(make_tank(2, 24));
     SECTION("with surface tension, which looks into the walls") {
