@@ -105,18 +105,14 @@ class Ladders {
         coarse.resolution = one.ladder.front();
         const auto scene = validation::make_scene(one, coarse);
         if (!scene) return false;
-        if (is_walls) {
-            const std::string kind = wall_kind(*scene);
-            return kind.empty() || kind == std::get<std::string>(walls->second);
-        }
+        if (is_walls) return scene->objects.empty() || wall_kind(*scene) == std::get<std::string>(walls->second);
         const auto free_surface = scene->parameters.find("free_surface");
         const bool is_confined = free_surface != scene->parameters.end() && !std::get<bool>(free_surface->second);
         return std::get<std::string>(form->second) == (is_confined ? "fourtakas" : "antuono");
     }
 
-    // As the parameter is called; empty: the scene has none.
+    // What the parameter `walls` is by default; empty: unknown.
     static std::string wall_kind(const proto::SceneDesc& scene) {
-        if (scene.objects.empty()) return {};
         const auto run = scene::Run::build(scene);
         if (!run) return {};
         for (const solver::Stage& stage : (*run)->plan())

@@ -154,15 +154,17 @@ bool write_tables() {
     for (const std::string& name : find_speed_files(kResults)) {
         const std::vector<SpeedRow> rows = read_speed_csv(kResults + "/" + name);
         const std::string document = kResults + "/" + std::filesystem::path(name).stem().string() + ".md";
-        is_written = is_written && std::ofstream(document) << speed_document(name, rows);
+        if (!(std::ofstream(document) << speed_document(name, rows))) is_written = false;
         if (auto fresh = with_speed_tables(text, name, rows); fresh) {
             text = std::move(*fresh);
         } else {
-            std::cerr << "headrace_bench: " << readme << " has no place for the tables of " << name << '\n';
+            std::cerr << "headrace_bench: " << readme << " has no place for the tables of " << name
+                      << ": put these lines where they belong\n"
+                      << speed_begin(name) << speed_end(name);
             is_written = false;
         }
     }
-    return is_written && std::ofstream(readme) << text;
+    return std::ofstream(readme) << text && is_written;
 }
 
 }  // namespace
@@ -174,8 +176,8 @@ int run_speed(int argc, char** argv) {
         "model at its defaults, t = 0.2 to 0.4 s; growth_* (on request): time and peak memory\n"
         "per particle from 10^5 to 10^7. Beside each figure stands what fused multiply-adds the machine "
         "gave.\n"
-        "Writes speed.csv (or --name), in which lines of other cases stay, and from it speed.md and the tables of\n"
-        "README.md."};
+        "Writes speed.csv (or --name), in which lines of other cases stay, and from it and its like speed*.md and the\n"
+        "tables of README.md."};
     Options options;
     define_options(app, options);
     CLI11_PARSE(app, argc, argv);

@@ -3,7 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -13,7 +12,6 @@
 #include "tests/bench/neighbour_count.h"
 #include "tests/bench/peak_memory.h"
 #include "tests/bench/speed_clock.h"
-#include "tests/bench/speed_contest.h"
 
 namespace headrace::bench {
 

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <utility>
 
 #include "server/scene/run.h"
 #include "server/solver/pairs/instruction_sets.h"

@@ -195,11 +195,13 @@ std::string ratio_table(const std::vector<SpeedRow>& rows, const std::string& is
 }
 
 // How time and memory of a particle grow with the number of particles; empty where that was not measured.
-std::string growth_table(const std::vector<SpeedRow>& rows) {
+std::string growth_table(const std::vector<SpeedRow>& rows, const std::string& isa) {
     std::string text;
     for (const std::string name : {"growth_plain_3d", "growth_wcsph_3d"}) {
         for (const std::string strategy : {"clusters", "half"}) {
-            const auto is_one = [&](const SpeedRow& row) { return row.name == name && row.strategy == strategy; };
+            const auto is_one = [&](const SpeedRow& row) {
+                return row.name == name && row.strategy == strategy && row.threads == 1 && row.isa == isa;
+            };
             const SpeedRow* fewest = nullptr;
             for (const SpeedRow& row : rows)
                 if (is_one(row) && (fewest == nullptr || row.particles < fewest->particles)) fewest = &row;
@@ -207,14 +209,15 @@ std::string growth_table(const std::vector<SpeedRow>& rows) {
                 if (!is_one(row)) continue;
                 text +=
                     "| " + row.model + (strategy == "half" ? " | half | " : " | whole | ") +
-                    with_thousands(static_cast<long>(row.particles)) + " | " + row.isa + " | " + figure(&row) +
+                    with_thousands(static_cast<long>(row.particles)) + " | " + figure(&row) +
                     text_of(" | %.2f | %.0f |\n", fewest->Mpsps_per_core / row.Mpsps_per_core, row.bytes_per_particle);
             }
         }
     }
     if (text.empty()) return "";
-    return "| growth, 3D, R/dp = 3, one thread | lists | particles | set | full steps | time per particle over that of "
-           "the fewest | bytes a particle |\n|---|---|---|---|---|---|---|\n" +
+    return "| growth, 3D, R/dp = 3, one thread, " + isa +
+           " | lists | particles | full steps | time per particle over that of "
+           "the fewest | bytes a particle |\n|---|---|---|---|---|---|\n" +
            text;
 }
 
@@ -253,7 +256,7 @@ std::string strategy_table(const std::vector<SpeedRow>& rows, const std::string&
 }
 
 std::string readme_tables(const std::vector<SpeedRow>& rows) {
-    const std::string isa = find_best_set(rows), growth = growth_table(rows);
+    const std::string isa = find_best_set(rows), growth = growth_table(rows, isa);
     return "\n" + models_table(rows) + "\n" + engine_table(rows, isa) + "\n" + ratio_table(rows, isa, 3.0) + "\n" +
            (growth.empty() ? "" : growth + "\n");
 }
@@ -278,7 +281,7 @@ std::optional<std::string> with_speed_tables(const std::string& readme, const st
 }
 
 std::string speed_document(const std::string& name, const std::vector<SpeedRow>& rows) {
-    const std::string isa = find_best_set(rows), growth = growth_table(rows);
+    const std::string isa = find_best_set(rows), growth = growth_table(rows, isa);
     return "# Speed of the pair engine and of whole models\n\nMade by `headrace_bench speed --readme` from " + name +
            "; README.md says what the cases are. M particle-steps per second and\ncore; in brackets GFLOP/s of fused "
            "multiply-adds beside the measurement, one core.\n\n## Models\n\n" +

@@ -32,7 +32,7 @@ WallChoice choose_integral_walls(std::span<const CollisionObject> objects, const
 
 // For scenes that leave the choice to the model: all objects or none, and only where integrals were found to be cheaper
 // and no less accurate, which is in 3D, of boxes and planes that slip. In 2D they cost the same; waves are as good or
-// better with them, the pressure after an impact is worse (README, "How accurate it is").
+// better with them, the pressure after an impact is worse (tests/bench/results/accuracy.md, dam_break_pressure).
 WallChoice choose_walls_by_default(std::span<const CollisionObject> objects, const Domain& domain, int dimensions,
                                    double support, const std::vector<char>& no_slip);
 

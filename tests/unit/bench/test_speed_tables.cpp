@@ -106,8 +106,12 @@ TEST_CASE("SpeedTables.TellHowTimeGrowsFromTheFewestParticles") {
     many.bytes_per_particle = 243.4;
     SpeedRow of_half_lists = many;  // has its own fewest
     of_half_lists.strategy = "half";
-    const std::string document = bench::speed_document("speed.csv", {many, few, of_half_lists});
-    CHECK(document.find("| plain | half | 1,000,000 | AVX2 | 3.2 (248) | 1.00 | 243 |\n") != std::string::npos);
-    CHECK(document.find("| plain | whole | 1,000,000 | AVX2 | 3.2 (248) | 1.25 | 243 |\n") != std::string::npos);
-    CHECK(document.find("| plain | whole | 64,000 | AVX2 | 4 (248) | 1.00 | 0 |\n") != std::string::npos);
+    SpeedRow on_two_threads = few;  // are of another table
+    on_two_threads.threads = 2;
+    const std::string document = bench::speed_document(
+        "speed.csv", {many, few, of_half_lists, on_two_threads, plain("clusters", "AVX2", 1, 1.0)});
+    CHECK(document.find("one thread, AVX2") != std::string::npos);
+    CHECK(document.find("| plain | half | 1,000,000 | 3.2 (248) | 1.00 | 243 |\n") != std::string::npos);
+    CHECK(document.find("| plain | whole | 1,000,000 | 3.2 (248) | 1.25 | 243 |\n") != std::string::npos);
+    CHECK(document.find("| plain | whole | 64,000 | 4 (248) | 1.00 | 0 |\n") != std::string::npos);
 }

@@ -1,7 +1,9 @@
 // No pair is ever missed, however the points move while the lists are reused.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "points.h"
 #include "server/solver/pairs/instruction_sets.h"
@@ -291,16 +293,18 @@ TEST_CASE("PairList.BringsBackPrunedPairsThatComeNear") {
 }
 
 TEST_CASE("PairList.HoldsForAMotionOfItsSkinAndNotForMore") {
-    // Two bodies just out of the lists' reach that close in. A criterion that let them go on would miss pairs: they are
-    // within the support then, and not in the lists.
+    // Two bodies that close in by the skin. Just within the lists' reach at the start their pairs are listed, and met
+    // at the end; just out of it they are not, and a criterion that let them go on would miss them.
     const int dimensions = GENERATE(2, 3);
-    constexpr double kLittle = 1e-3;
+    const double beyond = GENERATE(-1e-3, 1e-3);                    // the reach
+    constexpr double kLeft = 3.0, kRight = 3.0 + kSupport + kSkin;  // where one body ends and the other begins
+    constexpr double kMiddle = 0.5 * (kLeft + kRight);
     Points points;
     points.dimensions = dimensions;
-    for (int k = 0; k < 150; ++k) {
-        const double x = k % 5, y = k / 5 % 5, z = dimensions == 3 ? k / 25 : 0.05 * (k / 25);
+    for (int k = 0; k < 160; ++k) {
+        const double x = k % 4, y = dimensions == 3 ? k / 4 % 5 : k / 4, z = dimensions == 3 ? k / 20 : 0;
         points.add({x, y, z});
-        points.add({x + 4.0 + kSupport + kSkin + kLittle, y, z});
+        points.add({x + kRight + beyond, y, z});
     }
     points.sort();
     NeighbourInput in = input_of(points);
@@ -308,18 +312,26 @@ TEST_CASE("PairList.HoldsForAMotionOfItsSkinAndNotForMore") {
     PairNeighboursOf<float> neighbours;
     neighbours.find(in);
     const auto close_in = [&](double way) {  // both by half of it
-        for (std::size_t i = 0; i < points.size(); ++i) points.x[0][i] += points.x[0][i] < 5.7 ? 0.5 * way : -0.5 * way;
+        for (double& x : points.x[0]) x += x < kMiddle ? 0.5 * way : -0.5 * way;
         return neighbours.move_fluid(points.x, points.V.data());
     };
-    REQUIRE(close_in(kSkin - kLittle));
+    const auto pairs_across = [&] {  // within the support
+        std::vector<std::pair<std::size_t, std::size_t>> pairs;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (std::size_t j = 0; j < points.size(); ++j)
+                if (points.x[0][i] < kMiddle && points.x[0][j] > kMiddle && points.distance(i, j) < kSupport)
+                    pairs.emplace_back(i, j);
+        return pairs;
+    };
+    REQUIRE(close_in(kSkin - 0.5e-3));
     check_complete(neighbours, points);
-    CHECK_FALSE(close_in(3.0 * kLittle));
+    CHECK(pairs_across().empty() == (beyond > 0.0));
+    CHECK_FALSE(close_in(2e-3));
     const auto listed = listed_pairs(neighbours.among_fluid(), neighbours.fluid(), neighbours.fluid());
-    std::size_t missing = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t j = 0; j < points.size(); ++j)
-            missing += points.distance(i, j) < kSupport - 0.5 * kLittle && !listed.contains({i, j});
-    CHECK(missing > 0);
+    const auto near = pairs_across();
+    REQUIRE_FALSE(near.empty());
+    const bool has_all = std::all_of(near.begin(), near.end(), [&](const auto& pair) { return listed.contains(pair); });
+    CHECK(has_all == (beyond < 0.0));  // whole clusters are listed: some are there by their neighbours
 }
 
 TEST_CASE("PairList.MendsTheListsOfAFewThatOutrunTheirSkin") {

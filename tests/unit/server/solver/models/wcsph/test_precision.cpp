@@ -1,6 +1,5 @@
 // What single precision in the pair sums does to the model, and what it must not do.
 #include <catch2/catch.hpp>
-#include <iostream>
 
 #include "scenes.h"
 
@@ -72,20 +71,20 @@ TEST_CASE("WcsphPrecision.SinglePrecisionIsAsGoodAsItsNumbers") {
 }
 
 TEST_CASE("WcsphPrecision.FarFromTheOriginIsAsGoodAsNearIt") {
-    // 10^4 spacings away, single precision of the places themselves would leave an error of 6e-4 spacings.
+    // 10^4 spacings away, single precision of the places themselves would leave an error of 6e-4 spacings. Relative
+    // places that round the other way by 6e-8 are all that may differ: of a hundred terms each, 10 times that at most.
     const int dimensions = GENERATE(2, 3);
     const double away = 1e4 * (dimensions == 2 ? 1.0 / 40 : 1.0 / 20);
     const Difference d =
         compare(after_one_step(dimensions, "single", away), after_one_step(dimensions, "single", 0.0), dimensions);
     INFO(dimensions << "D: rms " << d.rms << ", largest " << d.largest);
-    std::cout << dimensions << "D, far against near: rms " << d.rms << ", largest " << d.largest << '\n';
     CHECK(d.rms < 1e-6);
     CHECK(d.largest < 1e-6);
 }
 
 TEST_CASE("WcsphPrecision.SinglePrecisionHasTheSameBitsForAnyThreadCount") {
-    // Water thrown into a corner: lists are made anew while it breaks, pruned and mended in between. Thread counts that
-    // change from step to step are as good as any.
+    // Water thrown into a corner: lists are made anew while it breaks. Thread counts that change from step to step are
+    // as good as any.
     const int dimensions = GENERATE(2, 3);
     const auto hash_with = [&](int threads, bool is_changing) {
         std::uint64_t hash = 0;
@@ -95,11 +94,13 @@ TEST_CASE("WcsphPrecision.SinglePrecisionHasTheSameBitsForAnyThreadCount") {
             for (double& v : scene.particles.v[0]) v -= 3.0;
             scene.parameters["precision"] = std::string("single");
             REQUIRE_FALSE(scene.start().fault);
+            bool is_sound = true;
             for (int k = 0; k < 60; ++k) {
                 if (is_changing) team_limit = 1 + k % threads;
-                REQUIRE_FALSE(scene.step().fault);
+                is_sound = is_sound && !scene.step().fault;
             }
             team_limit = 0;
+            REQUIRE(is_sound);
             const std::string lists = scene.model->plan(scene.surroundings()).front().reason;
             INFO(lists);
             CHECK(lists.find("sorted once") == std::string::npos);
