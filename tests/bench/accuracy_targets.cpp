@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <map>
 
 namespace headrace::bench {
 
@@ -34,16 +35,33 @@ std::string row_of(const validation::Case& one, const validation::Outcome& outco
     return text;
 }
 
+constexpr const char* kHead =
+    "| case | metric | value | must | aim | verdict | particles | steps | wall [s] "
+    "|\n|---|---|---|---|---|---|---|---|---|\n";
+
+// The table's rows by case; none where there is no file.
+std::map<std::string, std::string> read_rows(const std::string& path) {
+    std::map<std::string, std::string> rows;
+    std::ifstream file(path);
+    std::string line;
+    for (int k = 0; std::getline(file, line); ++k)
+        if (k >= 2 && line.starts_with("| ")) rows[line.substr(2, line.find(' ', 2) - 2)] += line + "\n";
+    return rows;
+}
+
+bool write_rows(const std::map<std::string, std::string>& rows, const std::string& path) {
+    std::ofstream file(path);
+    file << kHead;
+    for (const validation::Case& one : validation::cases())
+        if (const auto found = rows.find(one.name); found != rows.end()) file << found->second;
+    return static_cast<bool>(file.flush());
+}
+
 }  // namespace
 
 bool run_targets(const std::vector<std::string>& names, const validation::Settings& settings, const std::string& path) {
-    const bool is_new = !std::ifstream(path);
-    std::ofstream file(path, std::ios::app);
-    const std::string head =
-        "| case | metric | value | must | aim | verdict | particles | steps | wall [s] "
-        "|\n|---|---|---|---|---|---|---|---|---|";
-    std::cout << head << std::endl;
-    if (is_new) file << head << std::endl;
+    std::map<std::string, std::string> rows = read_rows(path);
+    std::cout << kHead << std::flush;
     bool is_met = true;
     for (const validation::Case& one : validation::cases()) {
         const bool is_named = std::find(names.begin(), names.end(), one.name) != names.end();
@@ -55,10 +73,14 @@ bool run_targets(const std::vector<std::string>& names, const validation::Settin
             continue;
         }
         if (!outcome->fault.empty()) std::cerr << one.name << ": " << outcome->fault << '\n';
-        for (const validation::Measured& measured : outcome->metrics) {
-            const std::string row = row_of(one, *outcome, measured, is_met);
-            std::cout << row << std::endl;
-            file << row << std::endl;
+        std::string& own = rows[one.name];
+        own.clear();
+        for (const validation::Measured& measured : outcome->metrics)
+            own += row_of(one, *outcome, measured, is_met) + "\n";
+        std::cout << own << std::flush;
+        if (!write_rows(rows, path)) {
+            std::cerr << "headrace_bench: cannot write " << path << '\n';
+            return false;
         }
     }
     return is_met;

@@ -63,7 +63,8 @@ void define_options(CLI::App& app, Options& options) {
         ->capture_default_str();
     app.add_option("--strategy", options.strategies,
                    "Strategies of the plain cases; none: clusters and half, and below 300,000 particles buffer and "
-                   "broadcast. Memory is that of clusters, or of half where clusters are left out")
+                   "broadcast. Memory is that of clusters, or of half where clusters are left out; sound of what a "
+                   "process measures first")
         ->delimiter(',')
         ->check(CLI::IsMember({"clusters", "half", "buffer", "broadcast"}));
     app.add_option(
@@ -102,10 +103,16 @@ void define_options(CLI::App& app, Options& options) {
         ->capture_default_str();
 }
 
-bool has(const Options& options, PairStrategy strategy, bool is_large) {
-    if (options.strategies.empty())
-        return strategy == PairStrategy::clusters || strategy == PairStrategy::half || !is_large;
-    return std::count(options.strategies.begin(), options.strategies.end(), pair_strategy_name(strategy)) > 0;
+std::vector<PairStrategy> choose_strategies(const Options& options, bool is_large) {
+    std::vector<PairStrategy> chosen;
+    for (const PairStrategy strategy :
+         {PairStrategy::clusters, PairStrategy::half, PairStrategy::buffer, PairStrategy::broadcast}) {
+        const bool is_list = strategy == PairStrategy::clusters || strategy == PairStrategy::half;
+        const bool is_named =
+            std::count(options.strategies.begin(), options.strategies.end(), pair_strategy_name(strategy)) > 0;
+        if (options.strategies.empty() ? is_list || !is_large : is_named) chosen.push_back(strategy);
+    }
+    return chosen;
 }
 
 std::vector<int> choose_threads(const Options& options, bool is_for_all_cores) {
@@ -117,12 +124,8 @@ std::vector<int> choose_threads(const Options& options, bool is_for_all_cores) {
 proto::Status run_plain(int dimensions, bool is_jittered, const Options& options, const SpeedSink& sink) {
     for (const std::size_t particles : options.particles) {
         for (const double support : options.supports) {
-            PlainCase one{dimensions, support, particles, {}, false, is_jittered};
             const bool is_large = particles >= kLarge;
-            for (const PairStrategy strategy :
-                 {PairStrategy::clusters, PairStrategy::half, PairStrategy::buffer, PairStrategy::broadcast}) {
-                if (has(options, strategy, is_large)) one.strategies.push_back(strategy);
-            }
+            PlainCase one{dimensions, support, particles, choose_strategies(options, is_large), false, is_jittered};
             const bool is_usual = support == 3.0 && !is_jittered;
             one.all_instruction_sets = options.all_sets || (is_usual && !is_large);
             SpeedPlan plan = options.plan;
@@ -140,7 +143,8 @@ proto::Status run_case(const std::string& name, const Options& options, const Sp
     if (name.starts_with("plain")) return run_plain(dimensions, name.ends_with("jittered"), options, sink);
     SpeedPlan plan = options.plan;
     plan.threads = choose_threads(options, dimensions == 3 && !name.starts_with("growth"));
-    if (name == "growth_plain_3d") return time_plain_growth(options.growth, plan, sink);
+    if (name == "growth_plain_3d")
+        return time_plain_growth(options.growth, choose_strategies(options, true), plan, sink);
     if (name == "growth_wcsph_3d") return time_wcsph_growth(options.growth, plan, sink);
     return time_dam_break(name.substr(0, name.find('_')), dimensions, plan, sink);
 }

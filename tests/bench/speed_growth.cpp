@@ -56,10 +56,10 @@ proto::SceneDesc make_scene(std::size_t particles) {
 
 }  // namespace
 
-proto::Status time_plain_growth(const std::vector<std::size_t>& particles, const SpeedPlan& plan,
-                                const SpeedSink& sink) {
+proto::Status time_plain_growth(const std::vector<std::size_t>& particles, const std::vector<PairStrategy>& strategies,
+                                const SpeedPlan& plan, const SpeedSink& sink) {
     omp_set_num_threads(plan.threads.front());
-    for (const PairStrategy strategy : {PairStrategy::clusters, PairStrategy::half}) {
+    for (const PairStrategy strategy : strategies) {
         std::vector<Contest> sizes;
         for (const std::size_t count : particles) {
             sizes.push_back(start_plain(count, strategy));
