@@ -10,6 +10,8 @@ namespace headrace::solver {
 
 class FieldView {
   public:
+    enum class Kind { zero, wide, narrow, product, quotient, scaled, extrapolated };
+
     FieldView() = default;                                                      // 0 everywhere
     FieldView(const double* values) : kind_(Kind::wide), wide_(values) {}       // NOLINT: values
     FieldView(const std::vector<double>& values) : FieldView(values.data()) {}  // NOLINT: values
@@ -36,36 +38,33 @@ class FieldView {
         return view;
     }
 
-    // Calls use with a function that gives the number of a point: one for each kind, so that a loop in `use` is
-    // compiled for each.
-    template <class Use>
-    void visit(Use&& use) const {
-        const double *const wide = wide_, *const divisor = divisor_;
-        const float* const narrow = narrow_;
-        const double factor = factor_;
-        switch (kind_) {
-            case Kind::zero:
-                return use([](std::size_t) { return 0.0; });
-            case Kind::wide:
-                return use([=](std::size_t i) { return wide[i]; });
-            case Kind::narrow:
-                return use([=](std::size_t i) { return narrow[i]; });
-            case Kind::product:
-                return use([=](std::size_t i) { return wide[i] * static_cast<double>(narrow[i]); });
-            case Kind::quotient:
-                return use([=](std::size_t i) { return wide[i] / divisor[i]; });
-            case Kind::scaled:
-                return use([=](std::size_t i) { return factor * static_cast<double>(narrow[i]); });
-            case Kind::extrapolated:
-                return use([=](std::size_t i) { return wide[i] + factor * static_cast<double>(narrow[i]); });
-        }
-    }
+    Kind kind() const { return kind_; }
+    const double* wide() const { return wide_; }
+    const double* divisor() const { return divisor_; }
+    const float* narrow() const { return narrow_; }
+    double factor() const { return factor_; }
 
     // Those of points [begin, begin + count).
     void read(std::size_t begin, std::size_t count, double* to) const {
-        visit([&](const auto& value) {
-            for (std::size_t k = 0; k < count; ++k) to[k] = static_cast<double>(value(begin + k));
-        });
+        switch (kind_) {
+            case Kind::zero:
+                return write(begin, count, to, [](std::size_t) { return 0.0; });
+            case Kind::wide:
+                return write(begin, count, to, [this](std::size_t i) { return wide_[i]; });
+            case Kind::narrow:
+                return write(begin, count, to, [this](std::size_t i) { return static_cast<double>(narrow_[i]); });
+            case Kind::product:
+                return write(begin, count, to,
+                             [this](std::size_t i) { return wide_[i] * static_cast<double>(narrow_[i]); });
+            case Kind::quotient:
+                return write(begin, count, to, [this](std::size_t i) { return wide_[i] / divisor_[i]; });
+            case Kind::scaled:
+                return write(begin, count, to,
+                             [this](std::size_t i) { return factor_ * static_cast<double>(narrow_[i]); });
+            case Kind::extrapolated:
+                return write(begin, count, to,
+                             [this](std::size_t i) { return wide_[i] + factor_ * static_cast<double>(narrow_[i]); });
+        }
     }
     double operator[](std::size_t i) const {
         double value = 0.0;
@@ -74,7 +73,10 @@ class FieldView {
     }
 
   private:
-    enum class Kind { zero, wide, narrow, product, quotient, scaled, extrapolated };
+    template <class Value>
+    static void write(std::size_t begin, std::size_t count, double* to, Value&& value) {
+        for (std::size_t k = 0; k < count; ++k) to[k] = value(begin + k);
+    }
 
     Kind kind_{Kind::zero};
     const double *wide_{}, *divisor_{};

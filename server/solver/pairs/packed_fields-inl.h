@@ -58,7 +58,10 @@ class PackedFields {
 
     HWY_INLINE static void pack(const FieldView& field, std::size_t first, std::size_t last, std::size_t count, S* to,
                                 std::size_t stride) {
-        field.visit([&](const auto& value) {
+        const double *const wide = field.wide(), *const divisor = field.divisor();
+        const double factor = field.factor();
+        const float* const narrow = field.narrow();
+        const auto write = [&](auto&& value) {
             const std::size_t whole = std::min(last, count / kClusterSize);
             for (std::size_t c = first; c < whole; ++c, to += stride) {
                 for (std::size_t l = 0; l < kClusterSize; ++l) to[l] = static_cast<S>(value(c * kClusterSize + l));
@@ -68,7 +71,23 @@ class PackedFields {
                 const std::size_t i = whole * kClusterSize + l;
                 to[l] = i < count ? static_cast<S>(value(i)) : S{};
             }
-        });
+        };
+        switch (field.kind()) {
+            case FieldView::Kind::zero:
+                return write([](std::size_t) { return 0.0; });
+            case FieldView::Kind::wide:
+                return write([&](std::size_t i) { return wide[i]; });
+            case FieldView::Kind::narrow:
+                return write([&](std::size_t i) { return narrow[i]; });
+            case FieldView::Kind::product:
+                return write([&](std::size_t i) { return wide[i] * static_cast<double>(narrow[i]); });
+            case FieldView::Kind::quotient:
+                return write([&](std::size_t i) { return wide[i] / divisor[i]; });
+            case FieldView::Kind::scaled:
+                return write([&](std::size_t i) { return factor * static_cast<double>(narrow[i]); });
+            case FieldView::Kind::extrapolated:
+                return write([&](std::size_t i) { return wide[i] + factor * static_cast<double>(narrow[i]); });
+        }
     }
 
     AlignedArray<S> packed_;
